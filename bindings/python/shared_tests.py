@@ -12,7 +12,8 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE), "OMP_NUM_THREADS": "1"}
-# Pieces of scenes: eight eccentric pipes with a bit, and the drives of a rig head that stays in place and turns.
+# Pieces of scenes: eight eccentric pipes with a bit, the drives of a rig head that stays in place and turns, its rotation, and a worn gear that
+# follows it; all in one hole.
 SHORT_STRING = """[[string]]
 name = "main"
 [[string.pipes]]
@@ -30,6 +31,15 @@ name = "head"
 component = "rx"
 time_function = "turning"
 """
+TURNING = """[[time_function]]
+name = "turning"
+segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+"""
+WORN = """[[time_function]]
+name = "worn"
+segment = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
+"""
+SHORT_RIG = '[hole]\ndiameter = "94 mm"\n' + SHORT_STRING + TURNING + DRIVES
 
 
 def needs(*names):

@@ -12,18 +12,12 @@ import sys
 import time
 import unittest
 
-from shared_tests import COMMAND, DRIVES, ENVIRONMENT, HERE, SHORT_STRING, FolderTest, needs
+from shared_tests import COMMAND, ENVIRONMENT, HERE, SHORT_RIG, FolderTest, needs
 
 needs("numpy")
 
 
-SCENE = """title = "short rig"
-[hole]
-diameter = "94 mm"
-""" + SHORT_STRING + """[[time_function]]
-name = "turning"
-segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-""" + DRIVES + """[run]
+SCENE = 'title = "short rig"\n' + SHORT_RIG + """[run]
 end = "20 ms"
 step = "1 ms"
 static = true

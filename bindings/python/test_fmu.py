@@ -9,7 +9,7 @@ import zipfile
 from ctypes import byref, c_bool, c_double, c_size_t, c_uint32, c_void_p
 from xml.etree import ElementTree
 
-from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, FolderTest, needs
+from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, TURNING, WORN, FolderTest, needs
 
 needs("numpy")
 
@@ -30,13 +30,7 @@ diameter = "94 mm"
 [[time_function]]
 name = "push"
 segment = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}
-[[time_function]]
-name = "turning"
-segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-[[time_function]]
-name = "gear"
-segment = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
-[[drive]]
+""" + TURNING + WORN + """[[drive]]
 name = "feed"
 time_function = "0 m/s"
 [[drive]]
@@ -44,7 +38,7 @@ name = "head"
 kind = "control"
 component = "rx"
 time_function = "turning"
-excitation = "gear"
+excitation = "worn"
 gain = "500 N m s"
 [[spring]]
 name = "rope"

@@ -101,7 +101,7 @@ class Record(unittest.TestCase):
         self.assertAlmostEqual(feed["low"], -12.0)
         self.assertAlmostEqual(feed["high"], 12.0)
         torque, thrust = record["traces"][:2]
-        self.assertEqual([one["value"] for one in torque["limits"]], [3.0])
+        self.assertEqual([one["value"] for one in torque["limits"]], [3.0, -3.0])  # of turning either way
         self.assertEqual([one["value"] for one in thrust["limits"]], [40.0, -60.0])
         self.assertEqual(len(record["traces"]), 4)
 

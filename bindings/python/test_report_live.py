@@ -9,7 +9,7 @@ import subprocess
 import unittest
 import unittest.mock
 
-from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
+from shared_tests import COMMAND, ENVIRONMENT, SHORT_RIG, FolderTest, needs
 
 needs("numpy")
 
@@ -19,13 +19,7 @@ from drillmbd.model import Model  # noqa: E402
 from drillmbd.verdict import NOT_COMPUTED  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = """title = "short hole"
-[hole]
-diameter = "94 mm"
-""" + SHORT_STRING + """[[time_function]]
-name = "turning"
-segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-""" + DRIVES + """[run]
+SCENE = 'title = "short hole"\n' + SHORT_RIG + """[run]
 end = "4 ms"
 step = "1 ms"
 """

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import drillmbd as mbd
+from shared_tests import TURNING, WORN
 
 try:
     from drillmbd import scene
@@ -24,17 +25,18 @@ ROOT = HERE.parents[1]
 SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
 BUILD = pathlib.Path(os.environ.get("DRILLMBD_BUILD", ROOT / "build" / "release")).resolve()
 
+RODS = """[[string]]
+name = "main"
+[[string.pipes]]
+count = 3
+"""
 SMALL = """title = "small"
 [hole]
 diameter = "94 mm"
 [[time_function]]
 name = "feed"
 segment = {kind = "step", x1 = "1 s", h1 = "10 mm/s"}
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 3
-[[drive]]
+""" + RODS + """[[drive]]
 name = "head"
 time_function = "feed"
 [run]
@@ -42,17 +44,7 @@ end = "10 ms"
 step = "1 ms"
 """
 
-WORN = """[[time_function]]
-name = "turning"
-segment = {kind = "step", x1 = "20 ms", h1 = "200 rpm"}
-[[time_function]]
-name = "worn"
-segment = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 3
-[[drive]]
+GEAR = TURNING.replace("100 rpm", "200 rpm") + WORN + RODS + """[[drive]]
 name = "head"
 component = "rx"
 time_function = "turning"
@@ -512,6 +504,12 @@ class DividedTest(unittest.TestCase):
 
 
 class ShippedTest(unittest.TestCase):
+    def assert_saved(self, found):
+        """The saved scene is the same, and so is its run."""
+        again = scene.loads(scene.saves(found))
+        self.assertTrue(again.same_as(found))
+        self.assertEqual(after_run(again), after_run(found))
+
     def test_there_are_three(self):
         self.assertGreaterEqual(len(SCENES), 3)
 
@@ -656,9 +654,7 @@ curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
         found = scene.loads(text)
         head = dict(found.model.calls)["add_drive"][0]
         self.assertEqual((head["delay"], head["force_rate"], head["inertia"], len(head["curve"])), (0.05, 2e4, 12.0, 3))
-        again = scene.loads(scene.saves(found))
-        self.assertTrue(again.same_as(found))
-        self.assertEqual(after_run(again), after_run(found))
+        self.assert_saved(found)
         with self.assertRaisesRegex(scene.SceneError, "curve"):
             scene.loads(text.replace('["0 rpm", "4 kN m"]', '["0 rpm"]'))
 
@@ -670,11 +666,7 @@ consistency = "0.05 Pa s"
 [hole]
 direction = [0, 0, -1]
 diameter = "96 mm"
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 2
-[[input]]
+""" + RODS + """[[input]]
 name = "pump"
 target = "flow-rate"
 high = "1200 l/min"
@@ -682,9 +674,7 @@ initial = "600 l/min"
 """
         found = scene.loads(text)
         self.assertAlmostEqual(dict(found.model.calls)["add_input"][0]["high"], 0.02, 12)
-        again = scene.loads(scene.saves(found))
-        self.assertTrue(again.same_as(found))
-        self.assertEqual(after_run(again), after_run(found))
+        self.assert_saved(found)
         with self.assertRaisesRegex(scene.SceneError, "Reynolds"):
             scene.loads(text.replace('"1200 l/min"', '"1e6 l/min"'))
 
@@ -708,9 +698,7 @@ motor = {flow = "1200 l/min", table_flow = "1800 l/min", table = [["0 rpm", "900
         drive = dict(found.model.calls)["add_drive"][0]
         self.assertEqual([round(one, 9) for pair in drive["gain_table"] for one in pair],
                          [round(one, 9) for pair in ((0.0, 0.0), (4 * math.pi / 3, 700.0), (10 * math.pi / 3, 900.0)) for one in pair])
-        again = scene.loads(scene.saves(found))
-        self.assertTrue(again.same_as(found))
-        self.assertEqual(after_run(again), after_run(found))
+        self.assert_saved(found)
         for wrong, wanted in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"), ("table_flow", "flux"),
                             ('"bearing"\nmotor', '"bearing"\ngain = 1\nmotor'), ('["90 rpm", "700 N m"]', '["200 rpm", "700 N m"]')):
             with self.assertRaisesRegex(scene.SceneError, "motor|gain"):
@@ -750,7 +738,7 @@ name = "pdc"
     def test_worn_gear(self):
         """A speed per revolution moves the head as a function of the caller with the same formulas does, to rounding; so it does in the saved
         file, to the bit."""
-        gear = scene.loads(WORN)
+        gear = scene.loads(GEAR)
         turning = gear.model.calls[0][1][0]
 
         def worn(time):
@@ -801,8 +789,8 @@ name = "pdc"
                 ('component = "rx"\ntime_function = "turning"', 'component = "x"\ntime_function = "0 m/s"', "this time function is in m/s; use h1"),
                 ('h1 = "200 rpm"}', 'h1 = "200 rpm"}\n[[time_function]]\nname = "t"\nsegment = {kind = "periodic", table = [["0 s", 0], ["1 s", "2 rpm"]]}\nunit = "rpm"',
                  "equal to the first value")):
-            text = WORN.replace(old, new)
-            self.assertNotEqual(text, WORN)
+            text = GEAR.replace(old, new)
+            self.assertNotEqual(text, GEAR)
             with self.subTest(new=new), self.assertRaises(scene.SceneError) as caught:
                 scene.loads(text)
             self.assertIn(wanted, str(caught.exception))

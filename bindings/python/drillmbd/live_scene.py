@@ -167,7 +167,7 @@ def _traces(scene: Scene, parts: Described, generation: int) -> list[dict[str, A
     found = []
     if torque:
         found.append({"title": phrase("Torque at the rig"), "unit": "kN m", "factor": 1e-3, "least": 0.1, "lines": [torque],
-                      "limits": [_limit(limits["torque"], phrase("limit {value:g} kN m", value=limits["torque"] / 1e3))] if "torque" in limits else []})
+                      "limits": [_limit(sign * limits["torque"], phrase("limit {value:g} kN m", value=limits["torque"] / 1e3)) for sign in (1.0, -1.0) if "torque" in limits]})
     if thrust:
         found.append({"title": phrase("Thrust at the rig"), "unit": "kN", "factor": 1e-3 if enums.X in drives else -1e-3, "least": 1.0, "lines": [thrust], "limits": [
             *([_limit(limits["push"], phrase("push limit {value:g} kN", value=limits["push"] / 1e3))] if "push" in limits else []),

@@ -1,4 +1,4 @@
-// Sentences of the page in its language: the English one is the key, {name} stands for a value.
+// Sentences of the page in its language: the English one is the key, {name} is replaced by a value.
 let catalogue = {};
 
 export function speak(words) {
