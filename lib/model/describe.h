@@ -22,7 +22,7 @@ int32_t dmb_describe_add(dmb_model *model, const dmb_field_list *list, const voi
 /* The checks of it, for kinds that the model keeps in another form. */
 int32_t dmb_describe_check(dmb_model *model, const dmb_field_list *list, const void *def, dmb_relations_fn relations);
 
-/* Frees a time function's copy of terms and tables. */
+/* Frees a time function's copy of segments and tables. */
 void dmb_time_function_release(dmb_time_function *time_function, const dmb_allocator *allocator);
 /* Adds a time function of a constant value behind all others. */
 int32_t dmb_model_append_constant(dmb_model *model, double value, uint32_t *index);

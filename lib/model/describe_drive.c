@@ -1,4 +1,4 @@
-
+/* Time functions, drives and loads: checks, and the model's own copies. */
 #include <math.h>
 #include <string.h>
 
@@ -94,7 +94,7 @@ static void check_segment(dmb_check *check, const dmb_model *model, const dmb_se
 
 /* ---- The caller's array ------------------------------------------------------------------------------------------ */
 
-/* Term i of the caller's array, whose items are as far apart as the first one says. All say the same. */
+/* Segment i of the caller's array, whose items are as far apart as the first one says. All say the same. */
 static int32_t read_segment(const dmb_segment *segments, uint32_t i, uint32_t stride, dmb_segment *out)
 {
     const unsigned char *item = (const unsigned char *)segments + (size_t)i * stride;
@@ -254,8 +254,6 @@ void dmb_model_drop_time_functions(dmb_model *model, uint32_t count)
                                   &model->allocator);
     }
 }
-
-/* Drives and loads. */
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
 

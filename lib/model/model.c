@@ -127,4 +127,4 @@ const char *dmb_model_message(const dmb_model *model)
 
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
 
-/* Lists of parts, kept by the growable array of base/vector.h. */
+/* Lists of parts, kept by the growable array of base/memory.h. */

@@ -159,7 +159,7 @@ static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
                                         edges.items, &scene->pattern);
     for (uint32_t b = 0; b < scene->block_count && status >= 0 && scene->sparse_count; ++b) {
         const size_t rows =
-            *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/linear/stiffness */
+            *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/linear/stiffness_signs */
         if (rows * rows > scene->six_dof_count) scene->six_dof_count = rows * rows;
     }
     dmb_vector_release(&capacity, allocator);

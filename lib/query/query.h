@@ -297,7 +297,7 @@ int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity,
  */
 
 /* Answers to the questions of the public headers, without a message where they fail: what the library itself asks.
- * query/question gives them to the caller. Errors as of dmb_query_ with the same name. */
+ * query/query gives them to the caller. Errors as of dmb_query_ with the same name. */
 int32_t dmb_answer_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state);
 int32_t dmb_answer_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
 int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact);

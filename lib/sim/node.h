@@ -57,7 +57,7 @@ typedef struct dmb_owner {
 
 dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node);
 dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
-/* Next body or bit whose contact point never touches the wall, and the text about it (model/supported_ring). */
+/* Next body or bit whose contact point never touches the wall, and the text about it (dmb_supported_site). */
 uint32_t dmb_owner_of_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *text);
 /* "drive 1 (pump)", "load 0". Returns text->text. */
 const char *dmb_string_text(const dmb_scene *scene, uint32_t string, dmb_message *text);

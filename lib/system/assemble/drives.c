@@ -10,8 +10,7 @@
 #include "system/assemble/actuators.h"
 #include "system/constrain/rotor.h"
 
-/* ---- Time functions, controllers and motion
- * -------------------------------------------------------------------------- */
+/* ---- Time functions, controllers and motion ---------------------------------------------------------------------- */
 
 /* Present target: the caller's value, or time function plus excitation. */
 static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)

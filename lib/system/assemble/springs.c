@@ -250,7 +250,7 @@ static void pull_mean(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *be
     close_gap(sim, spring, before, end, tension);
 }
 
-/* Rounding of the length, a difference of large numbers, as for springs of joints (below). */
+/* Rounding of the length, a difference of large numbers, as for springs of joints (system/assemble/joint_forces). */
 static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
 {
     const double reach = dmb_vec3_norm(spring->span) + dmb_vec3_norm(m->a.x) + dmb_vec3_norm(m->b.x);

@@ -4,7 +4,7 @@
  *     V = A(d) v,   residual r = A^T f,   f = -wrench(H, V)
  *     dr = (d A^T) f + A^T [f_H A + f_V dA v] dq + A^T f_V A dv
  *
- * with A the map of element/section_shape.h, v the velocities of both nodes, dq their body-frame displacements, and
+ * with A the map of element/beam.h, v the velocities of both nodes, dq their body-frame displacements, and
  * f_H, f_V the derivatives by force/contact_law.h for a node. */
 #include "system/assemble/assemble.h"
 
