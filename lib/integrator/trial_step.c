@@ -447,6 +447,12 @@ void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
         dmb_message_set(&sim->message, "step to time %g of length %g: forces not finite", trial_step->end.time,
                         trial_step->end.step);
         break;
+    case DMB_ERR_TOO_LARGE: /* dmb_time_function_integral */
+        dmb_message_set(&sim->message,
+                        "step to time %g of length %g: the angle of a segment per revolution in a motion drive changes "
+                        "by more than the 5e4 rad that one step can integrate; take shorter steps, or a smaller order",
+                        trial_step->end.time, trial_step->end.step);
+        break;
     case DMB_ERR_CALLBACK:
         if (dmb_chunks_explain(sim)) break;
         if (dmb_failed_force(sim, &owner.text)) {

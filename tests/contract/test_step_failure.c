@@ -127,6 +127,37 @@ static void bounded_work_accepts_and_tells(void **state)
     close_scene(&s);
 }
 
+/* A motion drive whose segment per revolution goes round too often for the integral over one step: an undivided step
+ * fails and names the segment. */
+static void too_many_turns_in_one_step(void **state)
+{
+    scene s;
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_segment swing = dmb_segment_default();
+    (void)state;
+    options.bounded_work = 1;
+    open_scene(&s);
+    whole_must(s.model, dmb_model_add_string(s.model, &string, &s.string));
+    pipe.string = s.string;
+    whole_must(s.model, dmb_model_add_pipes(s.model, &pipe, 1, NULL));
+    whole_must(s.model, dmb_model_add_ramp(s.model, 20.0, 20.0, 0.0, 1.0, &drive.time_function));
+    swing.kind = DMB_SEGMENT_PER_REVOLUTION;
+    swing.of = drive.time_function;
+    swing.h1 = 0.5;
+    swing.order = 1e6;
+    whole_must(s.model, dmb_model_add_time_function(s.model, &swing, 1, &drive.excitation));
+    drive.component = DMB_RX;
+    whole_must(s.model, dmb_model_add_drive(s.model, &drive, NULL));
+    start(&s, &options);
+    must_fail(&s, 0.05, DMB_ERR_TOO_LARGE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "segment per revolution in a motion drive"));
+    assert_int_equal(dmb_sim_step(s.sim, 1e-3, NULL), DMB_OK);
+    close_scene(&s);
+}
+
 /* ---- A relative rotation beyond what an element can tell --------------------------------------------------------- */
 
 static dmb_id torque(dmb_model *model)
@@ -387,6 +418,7 @@ int main(void)
         cmocka_unit_test(cuts_that_run_out_leave_nothing),
         cmocka_unit_test(smallest_step_is_a_floor),
         cmocka_unit_test(bounded_work_accepts_and_tells),
+        cmocka_unit_test(too_many_turns_in_one_step),
         cmocka_unit_test(too_much_rotation_is_refused),
         cmocka_unit_test(too_much_rotation_in_one_step),
         cmocka_unit_test(failure_after_accepted_parts_leaves_nothing),
