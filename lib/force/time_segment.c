@@ -154,7 +154,8 @@ static double table_slope(const dmb_segment *segment, uint32_t before)
            (segment->table_time[before] - segment->table_time[before - 1]);
 }
 
-/* Value at t given the number of knots at or before it. */
+/* Value at t given the number of knots at or before it, or the next knot. Rounded knots far from 0 may be further apart
+ * than those of the table. */
 static double table_at(const passage *p, uint32_t before, double t)
 {
     const double *x = p->segment->table_time;
@@ -162,7 +163,8 @@ static double table_at(const passage *p, uint32_t before, double t)
 
     if (before == 0) return y[0];
     if (before == p->segment->table_count) return y[before - 1];
-    return y[before - 1] + (y[before] - y[before - 1]) * ((t - knot(p, before - 1)) / (x[before] - x[before - 1]));
+    const double part = fmin((t - knot(p, before - 1)) / (x[before] - x[before - 1]), 1.0);
+    return y[before - 1] + (y[before] - y[before - 1]) * part;
 }
 
 static void table_value(const dmb_segment *segment, double t, double *value, double *rate)

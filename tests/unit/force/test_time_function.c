@@ -306,6 +306,27 @@ static void short_periods_far_out(void **state)
     }
 }
 
+/* Knots closer than the spacing of times there: integrals remain within the bounds of the values. */
+static void close_knots_far_out(void **state)
+{
+    const double time[5] = {0.0, 1e-10, 2e-6, 5.3999e-6, 5.4e-6}, value[5] = {-2.0, 2.0, 2.0, 2.0, -2.0};
+    dmb_segment again = pulses();
+    const dmb_time_function p = {&again, 1};
+    uint64_t seed = 101;
+    (void)state;
+
+    again.table_time = time;
+    again.table_value = value;
+    again.table_count = 5;
+    for (int i = 0; i < 4000; ++i) {
+        const double t0 = draw(&seed, -1e9, 1e9), t1 = t0 + draw(&seed, 2e-7, 1e-5);
+        const double start = dmb_time_function_next_breakpoint(&p, t0),
+                     mean[2] = {integral_of(&p, t0, t1) / (t1 - t0),
+                                start < t1 ? integral_of(&p, start, t1) / (t1 - start) : 0.0};
+        for (int k = 0; k < 2; ++k) assert_true(mean[k] >= -2.0 - 1e-12 && mean[k] <= 2.0 + 1e-12);
+    }
+}
+
 static void breakpoints_of_a_repeated_table(void **state)
 {
     const dmb_segment again = pulses();
@@ -585,6 +606,7 @@ int main(void)
         cmocka_unit_test(breakpoints_of_a_sum),
         cmocka_unit_test(repeated_table),
         cmocka_unit_test(short_periods_far_out),
+        cmocka_unit_test(close_knots_far_out),
         cmocka_unit_test(breakpoints_of_a_repeated_table),
         cmocka_unit_test(swings),
         cmocka_unit_test(swing_of_a_speed),
