@@ -1,6 +1,7 @@
 """Tests of the report: catalogue of its languages, the page in Chinese, plan and section of the hole, verdicts that are not given, limits
 for the crew, probability."""
 import ast
+import dataclasses
 import html
 import json
 import math
@@ -17,7 +18,7 @@ needs("numpy", "tomllib")
 
 import tomllib  # noqa: E402
 
-from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
+from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, report_probability, scene, unit_systems, verdict  # noqa: E402
 from drillmbd._structs import Id, SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
@@ -591,6 +592,22 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.assertIn("Margins of the study", page)
         self.assertIn("Probability: any failure", out)
         self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language", "zh")[1]).replace("pull", "").replace("study", ""))
+
+    def test_margins_that_are_infinite_or_not_known(self):
+        """A string that locks up has the smallest margin there is; a sample without one of its margins has no smallest one; limits that vary are named."""
+        self.assertEqual(report_probability._known([-math.inf, math.nan, 1.0]), [-math.inf, 1.0])
+        for row in ((0.5, math.nan), (math.nan, -1.0)):
+            self.assertTrue(math.isnan(report_probability._least(row)))
+        demand = {"percentiles": {"P95": {"value": 900.0, "share": 0.9}}}
+        one = report_probability.Outcome("pull", {}, "N", 1e3, [-math.inf, 100.0, 200.0], demand=demand)
+        self.assertIn("median 100 N, smallest -∞", str(one.margin_text(unit_systems.SI)))
+        drawn = dataclasses.replace(one, demand={**demand, "limit_varies": True})
+        for known, wanted in ((one, False), (drawn, True)):
+            for text in (known.margin_text(unit_systems.SI), known.percentile_text(unit_systems.SI)):
+                self.assertEqual("which varies" in str(text), wanted)
+                self.assertChinese(language.Language("zh")(text))
+        figure = report_probability.Probability("study", [one]).figures()[0][2]["data"][0]
+        self.assertEqual((list(figure["x"]), list(figure["y"])), ([0.1, 0.2], [0.666667, 1.0]))
 
     def test_probability_of_another_scene(self):
         needs("h5py", "scipy", "openturns")

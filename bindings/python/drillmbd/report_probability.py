@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -60,8 +61,11 @@ class Outcome:
         one = self.demand.get("percentiles", {}).get("P5" if self.demand.get("fails_below") else "P95")
         if not one or one.get("value") is None or one.get("share") is None:
             return ""
-        return phrase("in 95 of 100 samples the demand is {value} or less severe, {share:.3g} % of the limit", value=amount(one["value"], self.unit, units),
-                      share=100.0 * one["share"])
+        value, share = amount(one["value"], self.unit, units), 100.0 * one["share"]
+        if self.demand.get("limit_varies"):
+            return phrase("in 95 of 100 samples the demand is {value} or less severe, {share:.3g} % of the limit of the scene file, which varies",
+                          value=value, share=share)
+        return phrase("in 95 of 100 samples the demand is {value} or less severe, {share:.3g} % of the limit", value=value, share=share)
 
     def margin_text(self, units: Units) -> str:
         """The median and the smallest margin, and the limit they are counted from; a negative margin is a failure."""
@@ -70,8 +74,10 @@ class Outcome:
         middle, least = self.margins[len(self.margins) // 2], self.margins[0]
         if not math.isfinite(self.limit):
             return phrase("margin over its limit: median {median:.3g}, smallest {least:.3g}", median=middle, least=least)
-        return phrase("limit {limit}; margin: median {median}, smallest {least}", limit=amount(self.limit, self.unit, units),
-                      median=amount(middle, self.unit, units), least=amount(least, self.unit, units))
+        limit, median, smallest = (amount(one, self.unit, units) for one in (self.limit, middle, least))
+        if self.demand.get("limit_varies"):
+            return phrase("limit {limit} in the scene file, which varies; margin: median {median}, smallest {least}", limit=limit, median=median, least=smallest)
+        return phrase("limit {limit}; margin: median {median}, smallest {least}", limit=limit, median=median, least=smallest)
 
 
 @dataclass
@@ -93,7 +99,8 @@ class Probability:
         data = []
         for number, one in enumerate(known):
             scale = abs(one.limit) if math.isfinite(one.limit) else 1.0
-            data.append(line([margin / scale for margin in one.margins], [(i + 1) / len(one.margins) for i in range(len(one.margins))],
+            points = [(margin / scale, (i + 1) / len(one.margins)) for i, margin in enumerate(one.margins) if math.isfinite(margin)]
+            data.append(line([margin for margin, _ in points], [share for _, share in points],
                              phrase("any failure") if one.name == ANY else one.name, number))
         border = [{"type": "line", "x0": 0, "x1": 0, "yref": "paper", "y0": 0, "y1": 1, "line": {"color": "#D55E00", "dash": "dash"}}]
         return [(phrase("Margins of the study"), phrase("Share of samples whose margin is at most so large; left of the dashed line they fail. Study in {folder}.",
@@ -103,7 +110,9 @@ class Probability:
 
 
 def amount(value: float, unit: str, units: Units) -> str:
-    """A number with its unit, with a prefix where that is usual."""
+    """A number with its unit, with a prefix where that is usual; the margin of a string that locks up is infinite."""
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "-∞"
     if unit in ("N", "N m", "Pa"):
         return shown(value, unit, units)
     return f"{value:.3g}" if unit == "-" else units.text(value, unit, ".3g")
@@ -139,13 +148,18 @@ def read_probability(folder: str, scene: Scene) -> Probability:
             outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, []))), question, demands.get(name, {})))
         else:
             each = [[margin / scales[one] for margin in margins[one]] for one in limits if one in margins]
-            whole = sorted(_known(map(min, zip(*each)))) if name == ANY and len(each) == len(limits) else []
+            whole = sorted(_known(_least(row) for row in zip(*each))) if name == ANY and len(each) == len(limits) else []
             outcomes.append(Outcome(name, estimate, margins=whole, question=question))
     return Probability(os.path.basename(os.path.normpath(folder)), outcomes)
 
 
-def _known(values: Any) -> list[float]:
-    return [one for one in values if math.isfinite(one)]
+def _least(margins: Sequence[float]) -> float:
+    """The smallest margin of a sample; NaN where one is not known."""
+    return math.nan if any(math.isnan(one) for one in margins) else min(margins)
+
+
+def _known(values: Iterable[float]) -> list[float]:
+    return [one for one in values if not math.isnan(one)]
 
 
 def _margins(path: pathlib.Path) -> dict[str, list[float]]:

@@ -80,7 +80,7 @@ class Demand:
 
     def record(self) -> dict[str, Any]:
         """For summary.json."""
-        return {"unit": KINDS[self.failure.kind].unit, "limit": self.failure.limit, "fails_below": KINDS[self.failure.kind].low,
+        return {"unit": KINDS[self.failure.kind].unit, "limit": self.failure.limit, "fails_below": KINDS[self.failure.kind].low, "limit_varies": self.limit_varies,
                 "percentiles": {f"P{one.percent}": {key: value for key, value in vars(one).items() if key != "percent"} for one in self.percentiles},
                 "histogram": {"edges": self.edges, "counts": self.counts, "locked_up": self.infinite},
                 "rank_correlation": {one.name: {"value": one.rank, "least_that_counts": one.least} for one in self.matters}}
