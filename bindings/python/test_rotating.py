@@ -431,6 +431,12 @@ class CheckTest(FolderTest):
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.6, 1.0).verdict, "torque swings")
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.4, 10.0).verdict, "lateral acceleration")
 
+    def test_a_string_that_stays_on_its_axis(self):
+        """Axial-torsional pipes have no lateral acceleration, which is no assessment of it."""
+        text = SCENE.replace('eccentricity = "0.5 mm"', 'kind = "axial-torsional"')
+        self.assertIn("lateral acceleration is not assessed", self.ask("speeds", self.write("axial.toml", text), "--check", "2"))
+        self.assertNotIn("lateral acceleration is not assessed", self.ask("speeds", self.scene, "--check", "2"))
+
     def test_own_rotation_is_among_the_speeds(self):
         scene = scenes.load(self.scene)
         found = type("Found", (), {"grid": [60.0 * rotating.RPM, 240.0 * rotating.RPM]})

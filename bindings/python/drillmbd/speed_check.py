@@ -225,6 +225,9 @@ def _report(results: list[Result], found: Found, out: CommandOutput, elapsed: fl
                                                    if free else ""))
     elif not failed:
         out.say(f"in time none of the {len(results)} speeds swings; speeds between them were not run")
+    if any(not one.error for one in results) and not any(one.acceleration for one in results if not one.error):
+        out.note_text(f"check in time: {LATERAL} is not assessed, because no place of the string moves across its axis: axial-torsional pipes do not, and "
+                      "others only where something excites them")
     if failed:
         out.note_text(f"check in time: {len(failed)} of {len(results)} runs failed and are not assessed: " +
                          "; ".join(f"{one.speed / RPM:.0f} rpm: {one.error}" for one in failed))
