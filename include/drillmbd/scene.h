@@ -147,7 +147,8 @@ typedef struct dmb_segment {
     dmb_time_fn callback;      /* of CALLBACK; pure: same values for the same time, callable from any thread */
     void *callback_context;
     dmb_id of;    /* of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and
-                     PER_REVOLUTION. It is followed as described; inputs and limits of drives do not change it */
+                     PER_REVOLUTION. It is followed as described; inputs (compile warns of them), dmb_sim_set_drive and
+                     limits of drives do not change it */
     double share; /* [-] of PER_REVOLUTION: amplitude over w; default 0. Its integral is exact to round-off */
     double order; /* [-] of PER_REVOLUTION: periods a revolution, > 0; default 1 */
 } dmb_segment;

@@ -2297,7 +2297,7 @@ class Segment(SegmentPart, Sized):
         "provides": ("", "PROVIDES_..., of CALLBACK"),
         "callback": ("", "of CALLBACK; pure: same values for the same time, callable from any thread"),
         "callback_context": ("", ""),
-        "of": ("", "of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and PER_REVOLUTION. It is followed as described; inputs and limits of drives do not change it"),
+        "of": ("", "of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and PER_REVOLUTION. It is followed as described; inputs (compile warns of them), dmb_sim_set_drive and limits of drives do not change it"),
         "share": ("-", "of PER_REVOLUTION: amplitude over w; default 0. Its integral is exact to round-off"),
         "order": ("-", "of PER_REVOLUTION: periods a revolution, > 0; default 1"),
     }
