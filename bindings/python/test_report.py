@@ -449,6 +449,11 @@ class OperatingTest(unittest.TestCase):
         self.assertEqual(largest_of([{"table": [(0.0, 0.0), (2.0, 0.0), (4.0, 6.0)]}, {**down, "x0": 1.0, "x1": 3.0, "h1": 5.0}]), 11.0)
         self.assertEqual(largest_of([{"table": [(0.0, 5.0), (10.0, 0.0)]}, {**down, "x0": 2.0, "x1": 9.0, "h1": -5.0}]), 5.0)
         self.assertEqual(largest_of([]), 0.0)
+        worn = {"kind": enums.SEGMENT_PER_REVOLUTION, "of": Id(0, 1), "share": -0.02, "h1": 1.0}
+        self.assertEqual(largest_of([{"h0": 5.0}, worn], [[{"h0": -100.0}]]), 8.0)
+        plain = {"kind": enums.SEGMENT_CALLBACK}
+        self.assertIsNone(largest_of([worn], [[plain]]))
+        self.assertEqual(largest_of([{**worn, "share": 0.0}], [[plain]]), 1.0)
         self.assertIsNone(largest_of([up, {"kind": enums.SEGMENT_CALLBACK}]))
         worn = {"kind": enums.SEGMENT_PER_REVOLUTION, "of": Id(1 << 24 | 1, 1), "h0": -3.0, "h1": -2.0, "share": 0.1}
         self.assertEqual(largest_of([worn], [[worn], [up]]), 7.0)

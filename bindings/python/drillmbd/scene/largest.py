@@ -14,12 +14,15 @@ BETWEEN, MOST_BREAKPOINTS = 16, 2000  #: times between breakpoints, breakpoints 
 
 def bounded(segments: Any, time_functions: Sequence[Any]) -> list[dict[str, Any]]:
     """The segments, each one per revolution as a harmonic of its largest amplitude |h1| + |share| max |w|; w is the time function `of`.
-    time_functions: the segments of all time functions of the model, by number."""
+    Where w is a function of the caller, whose largest value is not known, the segment stays. time_functions: the segments of all time functions of the model, by number."""
     found = []
     for one in segments:
         if one.get("kind") == enums.SEGMENT_PER_REVOLUTION:
-            speed = largest_of(time_functions[one["of"].index & 0xFFFFFF]) or 0.0
-            one = {"kind": int(enums.SEGMENT_HARMONIC), "h0": one.get("h0", 0.0), "h1": abs(one.get("h1", 0.0)) + abs(one.get("share", 0.0)) * speed}
+            share, speed = abs(one.get("share", 0.0)), largest_of(time_functions[one["of"].index & 0xFFFFFF])
+            if share and speed is None:
+                found.append(one)
+                continue
+            one = {"kind": int(enums.SEGMENT_HARMONIC), "h0": one.get("h0", 0.0), "h1": abs(one.get("h1", 0.0)) + share * (speed or 0.0)}
         found.append(one)
     return found
 
