@@ -140,7 +140,7 @@ static int32_t force_of_rig(const asked_string *s, int32_t component, double sig
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->joint == DMB_NONE && drive->node == s->map->start_node && drive->component == component &&
             drive->kind != DMB_DRIVE_MOTION)
-            sum += s->sim->now.drive_force[i];
+            sum += s->sim->now.drives[i].force;
     }
     *value = signed_value(sign, sum);
     return DMB_OK;

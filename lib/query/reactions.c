@@ -215,10 +215,10 @@ int32_t dmb_answer_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *stat
     if (status < 0) return status;
     i = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
     if (i >= sim->scene->drive_count) return DMB_ERR_ID;
-    answer.target = sim->now.drive_target[i];
-    answer.position = sim->now.drive_position[i];
+    answer.target = sim->now.drives[i].target;
+    answer.position = sim->now.drives[i].position;
     answer.speed = dmb_drive_speed(sim->scene, &sim->now, i);
-    answer.force = sim->now.drive_force[i];
+    answer.force = sim->now.drives[i].force;
     answer.power = answer.force * answer.speed;
     answer.work = sim->drive_work[i];
     answer.command = answer.made = answer.force;

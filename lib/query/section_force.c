@@ -99,7 +99,7 @@ static double motor_loss(const dmb_sim *sim)
     double sum = 0.0;
     for (uint32_t i = 0; i < scene->drive_count && scene->flow.rate > 0.0; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->mud_pressure > 0.0) sum += drive->mud_pressure * sim->now.drive_force[i];
+        if (drive->mud_pressure > 0.0) sum += drive->mud_pressure * sim->now.drives[i].force;
     }
     return sum;
 }

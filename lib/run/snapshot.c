@@ -18,7 +18,7 @@
  * checked (run/snapshot_relations). */
 
 /* Fields of integers and structs require a check: a line of sim/sim.h without one does not compile. */
-#define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
+#define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, dmb_drive_variables : 1, default : 0)
 #define DMB_NAMES_BOUND(type, name, count, check)                                                                  \
     _Static_assert(DMB_DOUBLES(type) ==                                                                            \
                        (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS ||         \

@@ -26,14 +26,9 @@
 static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
 {
     const uint32_t d = sim->scene->drive_count;
-    DMB_COPY(now.drive_position, d);
-    DMB_COPY(now.drive_integral, d);
-    DMB_COPY(now.drive_target, d);
-    DMB_COPY(now.drive_force, d);
+    DMB_COPY(now.drives, d);
     DMB_COPY(now.actuator, 4 * (size_t)sim->scene->actuator_count);
     DMB_COPY(delay_line, 2 * (size_t)DMB_DELAY_SAMPLES * sim->scene->delay_count);
-    DMB_COPY(now.drive_speed, d);
-    DMB_COPY(now.drive_rate, d);
     DMB_COPY(drive_input, d);
     DMB_COPY(drive_offset, d);
     DMB_COPY(now.load_factor, sim->scene->load_count);

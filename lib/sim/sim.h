@@ -19,6 +19,17 @@
 #include "kernel/kernels.h"
 #include "model/model.h"
 
+/* Accepted or trial state of a drive, doubles alone (system/assemble/drives). Speed and rate are those of a driven
+ * joint coordinate, 0 of other drives. */
+typedef struct dmb_drive_variables {
+    double position; /* [m, rad] of the driven component since time 0 */
+    double integral; /* [m, rad] integral of the speed error of a CONTROL drive */
+    double target;   /* [unit of the time function] commanded value */
+    double force;    /* [N, N m] on the part */
+    double speed;    /* [m/s, rad/s] */
+    double rate;     /* [m/s2, rad/s2] prescribed acceleration */
+} dmb_drive_variables;
+
 /* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
  * X(type, name, count, check) */
 /* clang-format off */
@@ -56,12 +67,7 @@
     X(double, axial_torsional_bristle, 2 * pb, NUMBERS)      /* [m] */                                                \
     X(int32_t, axial_torsional_sticks, pb, FLAGS)            /* [-] */                                                \
     /* system/assemble/drives, from time functions and velocity: */                                                   \
-    X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
-    X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
-    X(double, drive_target, d, NUMBERS)           /* [unit of the time function] */                                   \
-    X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
-    X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
-    X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
+    X(dmb_drive_variables, drives, d, NUMBERS)                                                                        \
     X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
     X(double, load_factor, load, NUMBERS)         /* [-] time function of each load */                                \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \

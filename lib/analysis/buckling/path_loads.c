@@ -59,7 +59,7 @@ void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim)
     double *base = pattern->base;
     for (uint32_t i = 0; i < scene->load_count; i++) *base++ = sim->trial.load_factor[i];
     for (uint32_t i = 0; i < scene->bit_count; i++) *base++ = sim->trial.bit_load[i];
-    for (uint32_t i = 0; i < scene->drive_count; i++) *base++ = sim->trial.drive_target[i];
+    for (uint32_t i = 0; i < scene->drive_count; i++) *base++ = sim->trial.drives[i].target;
 }
 
 /* Sets the loads. Gravity, loads and bit loads scale in the evaluation if all of them do; else individually. */
@@ -76,7 +76,7 @@ void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evalu
     for (uint32_t i = 0; i < scene->bit_count; i++) sim->trial.bit_load[i] = loads * *base++;
     for (uint32_t i = 0; i < scene->drive_count; i++, base++) {
         if (scene->drives[i].kind != DMB_DRIVE_LOAD) continue;
-        sim->trial.drive_target[i] = i == pattern->drive ? *base + factor : drives * *base;
+        sim->trial.drives[i].target = i == pattern->drive ? *base + factor : drives * *base;
     }
 }
 

@@ -72,13 +72,13 @@ static int32_t derivative(const request *r, double *factor)
  * present segment of its table: the target changes downwards, where that segment is. */
 static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
-    const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
+    const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drives[i].force;
     const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
     double piece, change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
     if (gain == 0.0) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
     (void)dmb_drive_gain(r->copy->scene, &r->copy->now, i, &piece);
     if (drive->table != DMB_NONE) change = -fmin(fabs(change), 0.25 * piece);
-    return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
+    return difference(r, &r->copy->trial.drives[i].target, change, change * gain, 2.0);
 }
 
 /* x: required change of the pivot rows of a component, in their order; then displacements of its dependent rows. */
@@ -183,7 +183,7 @@ static int acts_across(const request *r, const dmb_scene_drive *drive)
 static int32_t of_drive(const request *r, uint32_t i)
 {
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
-    const double force = r->copy->now.drive_force[i];
+    const double force = r->copy->now.drives[i].force;
     r->out->drive = i;
     if (acts_across(r, drive))
         return refuse(r, DMB_ERR_UNSUPPORTED, "the drive turns with its part, across axes at rest");
@@ -191,7 +191,7 @@ static int32_t of_drive(const request *r, uint32_t i)
         return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
         return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
-    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
+    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, &r->copy->trial.drives[i].target);
     return drive->kind == DMB_DRIVE_MOTION ? moved(r, drive) : controlled(r, i, drive);
 }
 

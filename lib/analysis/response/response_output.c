@@ -327,7 +327,7 @@ static int without_effect(const request *r, const dmb_scene_drive *drive)
 /* kp (v* - v) + ki integral(v* - v); no change at its limits. */
 static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
-    const double force = r->copy->now.drive_force[i];
+    const double force = r->copy->now.drives[i].force;
     double room;
     const double gain = dmb_drive_gain(r->copy->scene, &r->copy->now, i, &room);
     dmb_functional position;

@@ -18,11 +18,11 @@ static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
         if (drive->kind != DMB_DRIVE_CONTROL) continue;
-        hash = mix(hash, sim->trial.drive_force[i] <= drive->limit_low);
-        hash = mix(hash, sim->trial.drive_force[i] >= drive->limit_high);
+        hash = mix(hash, sim->trial.drives[i].force <= drive->limit_low);
+        hash = mix(hash, sim->trial.drives[i].force >= drive->limit_high);
         if (drive->table == DMB_NONE) continue;
         const dmb_gain_table *table = sim->scene->gain_tables + drive->table;
-        const double error = sim->trial.drive_target[i] - dmb_drive_speed(sim->scene, &sim->trial, i);
+        const double error = sim->trial.drives[i].target - dmb_drive_speed(sim->scene, &sim->trial, i);
         for (uint32_t k = 0; k < table->points; k++) hash = mix(hash, error > table->error[k]);
     }
     for (uint32_t i = 0; i < sim->scene->drive_count && sim->scene->actuator_count > 0; i++) {

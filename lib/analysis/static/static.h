@@ -77,7 +77,7 @@ int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who);
 /* Speed prescribed by a motion drive [m/s or rad/s] at the present time, from the trial (dmb_system_prescribe). */
 static inline double dmb_steady_target(const dmb_sim *sim, uint32_t drive)
 {
-    return sim->trial.drive_target[drive];
+    return sim->trial.drives[drive].target;
 }
 
 /* Speeds of the strings, from the drives. Errors: DMB_ERR_UNSUPPORTED with a message, DMB_ERR_NO_MEMORY. */

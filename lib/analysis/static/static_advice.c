@@ -57,7 +57,7 @@ static const char *controller(const dmb_sim *sim, int limited_only, dmb_message 
     dmb_message name;
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
-        const double force = sim->trial.drive_force[i];
+        const double force = sim->trial.drives[i].force;
         const int high = force >= drive->limit_high, low = force <= drive->limit_low;
         if (drive->kind != DMB_DRIVE_CONTROL || (limited_only && !high && !low)) continue;
         dmb_drive_text(sim->scene, i, &name);

@@ -84,8 +84,8 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->kind != DMB_DRIVE_MOTION || drive->row == DMB_NONE) continue;
-        sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
-        if (drive->component == 0) steady->frame_velocity[drive->row] = sim->trial.drive_target[i];
+        sim->trial.velocity[drive->row] = sim->trial.drives[i].target;
+        if (drive->component == 0) steady->frame_velocity[drive->row] = sim->trial.drives[i].target;
     }
 }
 

@@ -64,7 +64,7 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
     double rate, travel;
-    int32_t status = target_of(sim, i, evaluation->time, &sim->trial.drive_target[i], &rate);
+    int32_t status = target_of(sim, i, evaluation->time, &sim->trial.drives[i].target, &rate);
     if (status < 0 || drive->kind != DMB_DRIVE_MOTION) return status;
     if (!(evaluation->step > 0.0))
         status = rate_to_come(sim, i, &rate);
@@ -73,12 +73,12 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
     if (status < 0) return status;
     if (drive->joint != DMB_NONE) { /* moved by its constraint */
-        sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
-        sim->trial.drive_rate[i] = rate;
+        sim->trial.drives[i].position = sim->now.drives[i].position + travel;
+        sim->trial.drives[i].rate = rate;
         return DMB_OK;
     }
     sim->increment[drive->row] = travel;
-    sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
+    sim->trial.velocity[drive->row] = sim->trial.drives[i].target;
     sim->trial.acceleration[drive->row] = rate;
     sim->trial.pseudo_acceleration[drive->row] = rate;
     return DMB_OK;
@@ -101,7 +101,7 @@ int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double breakpoint)
             return status;
         }
         const int on_joint = scene->drives[i].joint != DMB_NONE;
-        const double last = on_joint ? sim->trial.drive_rate[i] : sim->trial.acceleration[scene->drives[i].row];
+        const double last = on_joint ? sim->trial.drives[i].rate : sim->trial.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))
             return 1; /* more than differencing noise */
     }
@@ -134,7 +134,7 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
 double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive)
 {
     const uint32_t row = scene->drives[drive].row;
-    return row == DMB_NONE ? configuration->drive_speed[drive] : configuration->velocity[row];
+    return row == DMB_NONE ? configuration->drives[drive].speed : configuration->velocity[row];
 }
 
 /* kp e or G(e), and its derivative by e. */
@@ -148,7 +148,7 @@ static double gain_force(const dmb_scene *scene, uint32_t i, double error, doubl
 
 double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive, double *room)
 {
-    const double error = configuration->drive_target[drive] - dmb_drive_speed(scene, configuration, drive);
+    const double error = configuration->drives[drive].target - dmb_drive_speed(scene, configuration, drive);
     double gain;
     (void)gain_force(scene, drive, error, &gain);
     *room = (double)INFINITY;
@@ -164,30 +164,30 @@ static double control_force(const dmb_evaluation *evaluation, uint32_t i, double
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
     const double h = evaluation->step;
-    const double error = sim->trial.drive_target[i] - speed;
-    const double before = sim->now.drive_target[i] - dmb_drive_speed(sim->scene, &sim->now, i);
-    const double integral = sim->now.drive_integral[i] + 0.5 * h * (before + error);
+    const double error = sim->trial.drives[i].target - speed;
+    const double before = sim->now.drives[i].target - dmb_drive_speed(sim->scene, &sim->now, i);
+    const double integral = sim->now.drives[i].integral + 0.5 * h * (before + error);
     double gain;
     const double force = gain_force(sim->scene, i, error, &gain) + drive->integral_gain * integral;
     *slope = -(gain + 0.5 * h * drive->integral_gain);
-    sim->trial.drive_integral[i] = integral;
+    sim->trial.drives[i].integral = integral;
     double within = fmin(fmax(force, drive->limit_low), drive->limit_high);
     if (within != force) *slope = 0.0;
     if (drive->actuator != DMB_NONE)
         within = dmb_actuator_within(sim->scene->actuators + drive->actuator, within, speed, slope);
-    if (within != force) sim->trial.drive_integral[i] = sim->now.drive_integral[i];
+    if (within != force) sim->trial.drives[i].integral = sim->now.drives[i].integral;
     return within;
 }
 
 double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed, double *slope)
 {
     dmb_sim *sim = evaluation->sim;
-    double force = sim->trial.drive_target[drive];
+    double force = sim->trial.drives[drive].target;
     *slope = 0.0;
     if (sim->scene->drives[drive].kind == DMB_DRIVE_CONTROL) force = control_force(evaluation, drive, speed, slope);
     if (sim->scene->drives[drive].actuator != DMB_NONE)
         force = dmb_actuator_force(evaluation, drive, force, speed, slope);
-    sim->trial.drive_force[drive] = force;
+    sim->trial.drives[drive].force = force;
     return force;
 }
 
@@ -220,14 +220,14 @@ void dmb_assemble_drives(dmb_evaluation *evaluation)
 
 void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed, int open)
 {
-    sim->trial.drive_speed[drive] = speed;
+    sim->trial.drives[drive].speed = speed;
     if (open) {
-        sim->trial.drive_force[drive] = 0.0;
-        sim->trial.drive_integral[drive] = sim->now.drive_integral[drive];
+        sim->trial.drives[drive].force = 0.0;
+        sim->trial.drives[drive].integral = sim->now.drives[drive].integral;
         dmb_actuator_idle(sim, drive);
     }
     if (open || sim->scene->drives[drive].kind != DMB_DRIVE_MOTION)
-        sim->trial.drive_position[drive] = value - sim->drive_offset[drive];
+        sim->trial.drives[drive].position = value - sim->drive_offset[drive];
 }
 
 /* [m, rad] Travel of a driven row in the step, or in a move of statics. */
@@ -245,9 +245,9 @@ void dmb_drives_accept(const dmb_evaluation *evaluation)
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
         if (drive->joint == DMB_NONE)
-            sim->trial.drive_position[i] = sim->now.drive_position[i] + travel_in(evaluation, drive);
+            sim->trial.drives[i].position = sim->now.drives[i].position + travel_in(evaluation, drive);
         else if (drive->kind == DMB_DRIVE_MOTION && sim->joint_state[drive->joint] != DMB_JOINT_OPEN)
-            sim->trial.drive_speed[i] = sim->trial.drive_target[i];
+            sim->trial.drives[i].speed = sim->trial.drives[i].target;
     }
 }
 
@@ -257,33 +257,37 @@ void dmb_drives_read_reactions(dmb_sim *sim, dmb_configuration *to)
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->kind != DMB_DRIVE_MOTION) continue;
-        to->drive_force[i] = drive->joint == DMB_NONE
-                                 ? sim->residual[drive->row]
-                                 : -sim->trial.multiplier[scene->constraints[drive->constraint].row];
+        to->drives[i].force = drive->joint == DMB_NONE
+                                  ? sim->residual[drive->row]
+                                  : -sim->trial.multiplier[scene->constraints[drive->constraint].row];
     }
 }
 
 void dmb_drives_copy_targets(dmb_sim *sim)
 {
-    memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) sim->now.drives[i].target = sim->trial.drives[i].target;
 }
 
-static void copy_joints(dmb_sim *sim)
+static void copy_joint_rates(dmb_drive_variables *to, const dmb_drive_variables *from)
 {
-    memcpy(sim->now.drive_speed, sim->trial.drive_speed, sim->scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_rate, sim->trial.drive_rate, sim->scene->drive_count * sizeof(double));
+    to->speed = from->speed;
+    to->rate = from->rate;
 }
 
 void dmb_drives_copy_motion(dmb_sim *sim)
 {
-    memcpy(sim->now.drive_position, sim->trial.drive_position, sim->scene->drive_count * sizeof(double));
-    copy_joints(sim);
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        sim->now.drives[i].position = sim->trial.drives[i].position;
+        copy_joint_rates(sim->now.drives + i, sim->trial.drives + i);
+    }
 }
 
 void dmb_drives_copy_forces(dmb_sim *sim)
 {
     dmb_drives_copy_targets(sim);
-    memcpy(sim->now.drive_force, sim->trial.drive_force, sim->scene->drive_count * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        sim->now.drives[i].force = sim->trial.drives[i].force;
+        copy_joint_rates(sim->now.drives + i, sim->trial.drives + i);
+    }
     dmb_actuators_copy_flow(sim);
-    copy_joints(sim);
 }

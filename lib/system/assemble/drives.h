@@ -4,7 +4,7 @@
 
 #include "system/assemble/evaluation.h"
 
-/* Force of a LOAD or CONTROL drive at a speed of its component, also stored in trial.drive_force; *slope: its
+/* Force of a LOAD or CONTROL drive at a speed of its component, also stored in trial.drives[].force; *slope: its
  * derivative by that speed. */
 double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed, double *slope);
 /* [m/s, rad/s] of the driven component or coordinate in a configuration. */

@@ -8,7 +8,7 @@
 
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {
-    return c->drive_force[i] * dmb_drive_speed(sim->scene, c, i);
+    return c->drives[i].force * dmb_drive_speed(sim->scene, c, i);
 }
 
 /* Powers of an evaluation, with those of motion drives through their constrained rows. */
@@ -84,8 +84,8 @@ static double add_drives(dmb_sim *sim, const dmb_ledger_parts *parts)
     double sum = 0.0;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const double before = drive_power(sim, &sim->now, i), after = drive_power(sim, &sim->trial, i);
-        const double excess = dmb_ledger_excess(parts, sim->now.drive_force[i], dmb_drive_speed(scene, &sim->now, i),
-                                                sim->trial.drive_force[i], dmb_drive_speed(scene, &sim->trial, i));
+        const double excess = dmb_ledger_excess(parts, sim->now.drives[i].force, dmb_drive_speed(scene, &sim->now, i),
+                                                sim->trial.drives[i].force, dmb_drive_speed(scene, &sim->trial, i));
         sim->drive_work[i] += parts->first * before + parts->second * after - excess;
         sim->ledger->input += parts->first * fabs(before) + parts->second * fabs(after) + fabs(excess);
         sum += excess;

@@ -151,7 +151,7 @@ static void expect_driven(const dmb_sim *sim, uint32_t j, double expected[2])
         const uint32_t d = scene->joint_drives[i];
         const int32_t component = scene->drives[d].component;
         if (scene->drives[d].kind == DMB_DRIVE_MOTION && (component == DMB_RX || component == DMB_RY))
-            expected[component - DMB_RX] = sim->drive_offset[d] + sim->trial.drive_position[d];
+            expected[component - DMB_RX] = sim->drive_offset[d] + sim->trial.drives[d].position;
     }
 }
 
@@ -209,9 +209,9 @@ static void drive_row(dmb_evaluation *evaluation, const dmb_constraint *constrai
     if (evaluation->assembling || is_open(sim, drive->joint)) return;
     add_coordinate(evaluation, constraint, drive->joint, drive->component, 1.0);
     sim->constraint_value[constraint->row] -=
-        sim->drive_offset[constraint->index] + sim->trial.drive_position[constraint->index];
-    sim->constraint_rate[constraint->row] = -sim->trial.drive_target[constraint->index];
-    sim->constraint_convective[constraint->row] -= sim->trial.drive_rate[constraint->index];
+        sim->drive_offset[constraint->index] + sim->trial.drives[constraint->index].position;
+    sim->constraint_rate[constraint->row] = -sim->trial.drives[constraint->index].target;
+    sim->constraint_convective[constraint->row] -= sim->trial.drives[constraint->index].rate;
 }
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */

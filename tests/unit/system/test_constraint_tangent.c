@@ -306,10 +306,10 @@ static void stir(rig *s, uint64_t seed, int32_t locked)
         if (scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE && !locked) put_on_hole(sim, j);
     for (uint32_t r = 0; r < scene->constraint_row_count; r++) sim->now.multiplier[r] = draw_between(&seed, -5.0, 5.0);
     for (uint32_t d = 0; d < scene->drive_count; d++) {
-        sim->now.drive_target[d] = draw_between(&seed, -1.0, 1.0);
-        sim->now.drive_rate[d] = draw_between(&seed, -1.0, 1.0);
-        sim->now.drive_position[d] = draw_between(&seed, -1.0, 1.0);
-        sim->now.drive_integral[d] = draw_between(&seed, -0.1, 0.1);
+        sim->now.drives[d].target = draw_between(&seed, -1.0, 1.0);
+        sim->now.drives[d].rate = draw_between(&seed, -1.0, 1.0);
+        sim->now.drives[d].position = draw_between(&seed, -1.0, 1.0);
+        sim->now.drives[d].integral = draw_between(&seed, -0.1, 0.1);
     }
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, scene->row_count * sizeof(double));
@@ -362,9 +362,9 @@ static void move_along(dmb_sim *sim, double s)
         sim->trial.turn[i] += h[1];
     }
     for (uint32_t d = 0; d < scene->drive_count; d++) {
-        const double target = sim->now.drive_target[d], rate = sim->now.drive_rate[d];
-        sim->trial.drive_target[d] = target + s * rate;
-        sim->trial.drive_position[d] = sim->now.drive_position[d] + s * (target + 0.5 * s * rate);
+        const double target = sim->now.drives[d].target, rate = sim->now.drives[d].rate;
+        sim->trial.drives[d].target = target + s * rate;
+        sim->trial.drives[d].position = sim->now.drives[d].position + s * (target + 0.5 * s * rate);
     }
 }
 

@@ -284,7 +284,7 @@ static void check_gradient(const char *what, int32_t curved, int32_t sections)
     dmb_sim *sim = s.sim;
     memset(sim->now.load_factor, 0, sim->scene->load_count * sizeof(double));
     memset(sim->now.bit_load, 0, sim->scene->bit_count * sizeof(double));
-    memset(sim->now.drive_target, 0, sim->scene->drive_count * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) sim->now.drives[i].target = 0.0;
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     dmb_evaluation e = evaluation_of(sim, 0);
     assert_int_equal(dmb_system_evaluate(&e), DMB_OK);

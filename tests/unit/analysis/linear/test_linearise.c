@@ -77,7 +77,7 @@ static void move_integrals(dmb_sim *work, const dmb_sim *sim, const double *d, d
 {
     for (uint32_t i = 0; i < work->scene->drive_count; i++)
         if (work->scene->drives[i].kind == DMB_DRIVE_CONTROL)
-            work->now.drive_integral[i] = sim->now.drive_integral[i] - e * d[work->scene->drives[i].row];
+            work->now.drives[i].integral = sim->now.drives[i].integral - e * d[work->scene->drives[i].row];
 }
 
 /* R^T residual of the state perturbed by e, forces of constraint kept. */
