@@ -1,85 +1,87 @@
-/* A scene as a file: the calls that describe it, with their structs as they lie in memory. The co-simulation unit
- * carries it as resources/scene.bin and makes its model by the same calls; drillmbd/fmu.py and scene_record.h write it.
+/* The file resources/scene.bin of a co-simulation unit: the scene record of its model and the settings of its run. It
+ * has no pointers and no struct layout; numbers are little-endian: u32, u64, and f64 by its 64 bits of IEEE 754.
  *
- * header, then records. A record names a call and is followed by `structs` structs of struct_size bytes, by `ids` pairs
- * of uint32 (number of the struct, offset in it) that tell where ids stand, and by `doubles` numbers: the arrays that
- * the structs point to, one after the other in the order of SCENE_ARRAYS. All lengths are multiples of 8. Structs must
- * have the size that the reader knows, so a file fits the library of its version and machines with the same layout:
- * little-endian, pointers of 8 bytes. */
+ *     header    "DMBSCENE", u32 format, u32 flags, u64 length of all, u32 checksum (CRC-32 of all that follows), u32 0
+ *     token     of the unit, SCENE_TOKEN bytes, ends with 0
+ *     record    u32 length, the bytes of dmb_model_write
+ *     options   of compile, sim and static state, each: u32 count, f64 values in the order of SCENE_..._OPTIONS
+ *     step      f64 [s] of the steps within a communication step; 0: chosen by the library
+ *     outputs   u32 count, each: u32 index of the part's id, u32 pipe, f64 fraction, u32 quantity
+ *
+ * A newer version adds options at the end of their list: an older file leaves them at their defaults, a newer file is
+ * refused. drillmbd/fmu.py and scene_write.c write it. */
 #ifndef DMB_FMI_SCENE_FORMAT_H
 #define DMB_FMI_SCENE_FORMAT_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include <drillmbd/drillmbd.h>
 
 #define SCENE_MAGIC "DMBSCENE"
-enum { SCENE_FORMAT = 2, SCENE_LAYOUT = 8, SCENE_TOKEN = 48, SCENE_CALL = 24 };
+enum { SCENE_FORMAT = 3, SCENE_HEADER = 32, SCENE_CHECKSUM_AT = 24, SCENE_TOKEN = 48, SCENE_HAS_STATIC = 1 };
 
-typedef struct scene_header {
-    char magic[8];
-    uint32_t format;         /* SCENE_FORMAT */
-    uint32_t layout;         /* SCENE_LAYOUT: bytes of a pointer, in little-endian order */
-    uint64_t length;         /* [byte] of the whole file */
-    uint32_t checksum;       /* CRC-32 of all that follows `reserved` */
-    uint32_t reserved;       /* 0 */
-    char token[SCENE_TOKEN]; /* of the unit, ends with 0 */
-} scene_header;
+/* All fields that are numbers, in the order of their structs: that of drillmbd/fmu.py. */
+#define SCENE_COMPILE_OPTIONS(X)     \
+    X(dmb_compile_options, features) \
+    X(dmb_compile_options, pipe_kind)
+#define SCENE_SIM_OPTIONS(X)                  \
+    X(dmb_sim_options, max_iterations)        \
+    X(dmb_sim_options, spectral_radius)       \
+    X(dmb_sim_options, newton_tolerance)      \
+    X(dmb_sim_options, tolerance_translation) \
+    X(dmb_sim_options, tolerance_rotation)    \
+    X(dmb_sim_options, step_min)              \
+    X(dmb_sim_options, step_max)              \
+    X(dmb_sim_options, max_cuts)              \
+    X(dmb_sim_options, bounded_work)          \
+    X(dmb_sim_options, energy_ledger)         \
+    X(dmb_sim_options, max_steps)             \
+    X(dmb_sim_options, constraint_method)     \
+    X(dmb_sim_options, parallel_parts)        \
+    X(dmb_sim_options, parallel_least)        \
+    X(dmb_sim_options, assembly_energy)
+#define SCENE_STATIC_OPTIONS(X)           \
+    X(dmb_static_options, max_iterations) \
+    X(dmb_static_options, tolerance)      \
+    X(dmb_static_options, slip_axial)     \
+    X(dmb_static_options, slip_rotation)  \
+    X(dmb_static_options, load_steps)     \
+    X(dmb_static_options, lay_on_wall)    \
+    X(dmb_static_options, steady)
 
-typedef struct scene_record {
-    char call[SCENE_CALL]; /* "add_body", ends with 0 */
-    uint32_t count;        /* [-] of pipes of add_pipes, else 1 */
-    uint32_t structs, struct_size, ids, doubles;
-    uint32_t reserved; /* 0 */
-} scene_record;
+/* Settings of the run. */
+typedef struct scene_settings {
+    dmb_compile_options compile;
+    dmb_sim_options sim;
+    dmb_static_options statics;
+    int has_static;        /* 1: the run begins in the static state */
+    double step;           /* [s] as in the file */
+    dmb_output *outputs;   /* shape (output_count) */
+    uint32_t output_count; /* [-] */
+} scene_settings;
 
-/* An output of the unit, and what the run begins with. */
-typedef struct scene_output {
-    uint32_t struct_size, reserved;
-    dmb_output noted;
-} scene_output;
-typedef struct scene_name { /* of the call set_name */
-    uint32_t struct_size, reserved;
-    dmb_id part;
-    char name[DMB_NAME_SIZE];
-} scene_name;
-typedef struct scene_run {
-    uint32_t struct_size, reserved;
-    double step; /* [s] of the steps within a communication step; 0: chosen by the library */
-} scene_run;
+scene_settings scene_settings_default(void);
 
-/* Calls with one struct that give an id. */
-#define SCENE_DEFINITIONS(X)              \
-    X(add_wall, dmb_wall_def)             \
-    X(add_string, dmb_string_def)         \
-    X(add_body, dmb_body_def)             \
-    X(add_bit, dmb_bit_def)               \
-    X(add_stabiliser, dmb_stabiliser_def) \
-    X(add_joint, dmb_joint_def)           \
-    X(add_coupling, dmb_coupling_def)     \
-    X(add_drive, dmb_drive_def)           \
-    X(add_load, dmb_load_def)             \
-    X(add_spring, dmb_spring_def)         \
-    X(add_stuck, dmb_stuck_def)           \
-    X(add_input, dmb_input_def)           \
-    X(add_event, dmb_event_def)
-
-/* Pointers in structs to arrays: call, struct, pointer, count, numbers for each count. */
-#define SCENE_ARRAYS(X)                                             \
-    X(add_time_function, dmb_segment, table_time, table_count, 1)   \
-    X(add_time_function, dmb_segment, table_value, table_count, 1)  \
-    X(add_wall, dmb_wall_def, survey, survey_count, 3)              \
-    X(add_spring, dmb_spring_def, table_elongation, table_count, 1) \
-    X(add_spring, dmb_spring_def, table_force, table_count, 1)
-
-/* Pointers that a file cannot say: they are NULL. */
-#define SCENE_NULLS(X)                                  \
-    X(add_time_function, dmb_segment, callback)         \
-    X(add_time_function, dmb_segment, callback_context) \
-    X(sim, dmb_sim_options, allocator)                  \
-    X(sim, dmb_sim_options, log)                        \
-    X(sim, dmb_sim_options, log_context)
+typedef enum scene_type { SCENE_REAL, SCENE_COUNT, SCENE_WHOLE } scene_type; /* double, uint32_t, int32_t */
+typedef struct scene_option {
+    const char *name;
+    size_t offset;
+    scene_type type;
+} scene_option;
+typedef struct scene_options {
+    const char *name;
+    const scene_option *options;
+    uint32_t count;
+    size_t offset; /* of the struct in scene_settings */
+} scene_options;
+enum { SCENE_LISTS = 3 };
+extern const scene_options scene_option_lists[SCENE_LISTS];
 
 uint32_t scene_checksum(const void *bytes, uint64_t size);
+
+/* Writes the file of a model; compiled or not. 0, or -1 where the model cannot be a record (dmb_last_error), the token
+ * is too long, or memory or the file could not be had. Not in the unit itself. */
+int scene_write(const char *path, const char *token, const dmb_model *model, const scene_settings *settings);
 
 #endif

@@ -61,10 +61,10 @@ static int open_scene(unit *u, const char *folder, const char *token)
         unit_tell(u, UNIT_ERROR, "%s", u->scene.message);
         return -1;
     }
-    if (!token || strcmp(token, scene_token(&u->scene)) != 0) {
+    if (!token || strcmp(token, u->scene.token) != 0) {
         unit_tell(u, UNIT_ERROR,
                   "unit refused: token %s of the model description, %s holds %s; take both from one unit",
-                  token ? token : "NULL", path, scene_token(&u->scene));
+                  token ? token : "NULL", path, u->scene.token);
         return -1;
     }
     return 0;
@@ -86,7 +86,7 @@ unit *unit_create(const char *folder, const char *token, unit_log_fn log, void *
         unit_destroy(u);
         return NULL;
     }
-    u->step = u->scene.step;
+    u->step = u->scene.settings.step;
     return u;
 }
 
@@ -116,7 +116,7 @@ unit_status unit_reset(unit *u)
     dmb_sim_destroy(&u->sim);
     memset(u->is_set, 0, u->input_count * sizeof *u->is_set);
     memset(u->told, 0, sizeof u->told);
-    u->step = u->scene.step;
+    u->step = u->scene.settings.step;
     u->mode = UNIT_INSTANTIATED;
     return UNIT_OK;
 }
@@ -155,9 +155,9 @@ static int32_t start_sim(unit *u, const char **failed)
 {
     *failed = "parameters";
     int32_t status = set_all(u, 0);
-    if (status >= 0 && u->scene.has_static) {
+    if (status >= 0 && u->scene.settings.has_static) {
         *failed = "static state";
-        status = dmb_analysis_static(u->sim, &u->scene.statics, NULL);
+        status = dmb_analysis_static(u->sim, &u->scene.settings.statics, NULL);
         if (status > 0) unit_tell(u, UNIT_WARNING, "%s: %s", dmb_status_text(status), dmb_sim_message(u->sim));
     }
     if (status < 0) return status;
@@ -174,7 +174,7 @@ unit_status unit_prepare(unit *u)
         return unit_tell(u, UNIT_ERROR,
                          "call refused: the start of this unit failed; reset it, then give other values");
     u->mode = UNIT_FAILED; /* an importer that does not read the status of the start gets no values */
-    if (dmb_sim_create(u->scene.model, &u->scene.sim, &u->sim) < 0)
+    if (dmb_sim_create(u->scene.model, &u->scene.settings.sim, &u->sim) < 0)
         return unit_tell(u, UNIT_ERROR, "start failed: %s", dmb_model_message(u->scene.model));
     if (start_sim(u, &failed) >= 0) {
         u->mode = before;
@@ -193,7 +193,8 @@ static unit_status unknown(const unit *u, uint32_t reference, const char *type)
         u, UNIT_ERROR,
         "value reference refused: %u is no %s here: time 0, step 1, inputs %d .. + %u, outputs %d .. + %u, "
         "counts of events %d .. + %u",
-        reference, type, UNIT_INPUTS, u->input_count, UNIT_OUTPUTS, u->scene.output_count, UNIT_EVENTS, u->event_count);
+        reference, type, UNIT_INPUTS, u->input_count, UNIT_OUTPUTS, u->scene.settings.output_count, UNIT_EVENTS,
+        u->event_count);
 }
 
 int unit_has_input(const unit *u, uint32_t reference)
@@ -203,7 +204,8 @@ int unit_has_input(const unit *u, uint32_t reference)
 
 int unit_has_output(const unit *u, uint32_t reference)
 {
-    return reference >= UNIT_OUTPUTS && reference < UNIT_OUTPUTS + u->scene.output_count && reference < UNIT_EVENTS;
+    return reference >= UNIT_OUTPUTS && reference < UNIT_OUTPUTS + u->scene.settings.output_count &&
+           reference < UNIT_EVENTS;
 }
 
 static unit_status get_input(unit *u, uint32_t i, double *value)
@@ -223,9 +225,9 @@ static unit_status get_input(unit *u, uint32_t i, double *value)
 static unit_status get_output(unit *u, uint32_t i, double *value)
 {
     if (unit_prepare(u) != UNIT_OK) return UNIT_ERROR;
-    const int32_t status = dmb_query_output(u->sim, &u->scene.outputs[i], value);
+    const int32_t status = dmb_query_output(u->sim, &u->scene.settings.outputs[i], value);
     if (status >= 0) return UNIT_OK;
-    (void)dmb_output_check(u->sim, &u->scene.outputs[i], 1);
+    (void)dmb_output_check(u->sim, &u->scene.settings.outputs[i], 1);
     return unit_tell(u, UNIT_ERROR, "output %u cannot be read: %s: %s", i, dmb_status_text(status),
                      dmb_sim_message(u->sim));
 }

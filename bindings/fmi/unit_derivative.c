@@ -73,7 +73,7 @@ static unit_status check(const unit *u, const uint32_t *unknowns, size_t unknown
     for (size_t i = 0; i < unknown_count; ++i)
         if (!unit_has_output(u, unknowns[i]))
             return unit_tell(u, UNIT_ERROR, "derivative refused: value reference %u is no output: %d .. + %u",
-                             unknowns[i], UNIT_OUTPUTS, u->scene.output_count);
+                             unknowns[i], UNIT_OUTPUTS, u->scene.settings.output_count);
     for (size_t i = 0; i < known_count; ++i) {
         if (!unit_has_input(u, knowns[i]))
             return unit_tell(u, UNIT_ERROR, "derivative refused: value reference %u is no input: %d .. + %u", knowns[i],

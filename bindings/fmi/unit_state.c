@@ -50,7 +50,7 @@ static void fill_state(const unit *u, unit_state *state, size_t snapshot)
     memcpy(header.magic, STATE_MAGIC, sizeof header.magic);
     header.format = STATE_FORMAT;
     header.mode = (uint32_t)u->mode;
-    memcpy(header.token, scene_token(&u->scene), strlen(scene_token(&u->scene)));
+    memcpy(header.token, u->scene.token, strlen(u->scene.token));
     header.inputs = u->input_count;
     header.snapshot = snapshot;
     header.step = u->step;
@@ -95,7 +95,7 @@ static unit_status check(const unit *u, const void *data, uint64_t size)
     const int fits = header.format == STATE_FORMAT && header.mode < UNIT_MODES && header.inputs == u->input_count &&
                      header.snapshot <= size && state_bytes(header.inputs, header.snapshot) == size &&
                      header.step >= 0.0 && header.step <= 1e18;
-    if (!fits || memcmp(header.token, scene_token(&u->scene), strlen(scene_token(&u->scene)) + 1u) != 0)
+    if (!fits || memcmp(header.token, u->scene.token, strlen(u->scene.token) + 1u) != 0)
         return unit_tell(u, UNIT_ERROR,
                          "state refused: it is that of another unit or version; give what this unit saved");
     if (checksum_of(data, size) != header.checksum)
@@ -112,7 +112,7 @@ static unit_status load_sim(unit *u, const unsigned char *snapshot, uint64_t siz
         return UNIT_OK;
     }
     const int had_sim = u->sim != NULL;
-    if (!had_sim && dmb_sim_create(u->scene.model, &u->scene.sim, &u->sim) < 0)
+    if (!had_sim && dmb_sim_create(u->scene.model, &u->scene.settings.sim, &u->sim) < 0)
         return unit_tell(u, UNIT_ERROR, "state refused: %s", dmb_model_message(u->scene.model));
     if (dmb_sim_restore(u->sim, snapshot, (size_t)size) >= 0) return UNIT_OK;
     unit_tell(u, UNIT_ERROR, "state refused: %s", dmb_sim_message(u->sim));

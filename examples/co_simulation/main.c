@@ -10,7 +10,7 @@
 
 #include "../command_line.h"
 #include "fmi3_declarations.h"
-#include "scene_record.h"
+#include "scene_format.h"
 
 enum { TARGET = 1, MEASURED = 2, COMMAND = 3, RIG_TORQUE = 100000, RIG_SPEED = 200000, BIT_SPEED = 200001 };
 static const double length = 2e-3;
@@ -91,7 +91,8 @@ static int set(const unit *u, fmi3ValueReference reference, double value)
     return u->set(u->instance, &reference, 1, &value, 1) != fmi3OK;
 }
 
-/* ---- The rig: described by the library, and noted for its unit ------------------------------------------------------
+/* ---- The rig: described by the library, and written for its unit
+ * ------------------------------------------------------
  */
 typedef struct rig {
     dmb_model *model;
@@ -100,7 +101,7 @@ typedef struct rig {
     dmb_output outputs[2]; /* speed of the rig, of the bit */
 } rig;
 
-static int32_t describe(rig *r, scene_book *book)
+static int32_t describe(rig *r)
 {
     const dmb_wall_def wall = dmb_wall_def_default();
     const dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -111,42 +112,36 @@ static int32_t describe(rig *r, scene_book *book)
     dmb_input_def input = dmb_input_def_default();
     dmb_id string = {0, 0};
     (void)dmb_model_add_wall(r->model, &wall, NULL);
-    SCENE_NOTE(book, "add_wall", wall);
     (void)dmb_model_add_pipes(r->model, &pipe, 40, &string);
-    scene_note(book, "add_pipes", &pipe, sizeof pipe, 1, 40);
     head.attach = DMB_ATTACH_START; /* the rig's rotation unit */
     head.string = string;
     head.mass = 300.0;
     head.inertia[0] = head.inertia[1] = head.inertia[2] = 6.0;
     (void)dmb_model_add_body(r->model, &head, NULL);
-    SCENE_NOTE(book, "add_body", head);
     (void)dmb_model_add_time_function(r->model, &none, 1, &drive.time_function);
-    SCENE_NOTE(book, "add_time_function", none);
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;
     drive.part = string;
     (void)dmb_model_add_drive(r->model, &drive, &input.part);
-    SCENE_NOTE(book, "add_drive", drive);
     memcpy(input.name, "torque", sizeof "torque");
     (void)dmb_model_add_input(r->model, &input, &r->torque);
-    SCENE_NOTE(book, "add_input", input);
-    SCENE_NOTE(book, "compile", compile);
     for (int i = 0; i < 2; ++i) {
         r->outputs[i].place.part = string;
         r->outputs[i].quantity = i == 0 ? DMB_OUTPUT_ROTARY_SPEED : DMB_OUTPUT_BIT_SPEED;
-        scene_note_output(book, r->outputs[i]);
     }
-    scene_note_step(book, 1e-3);
     return dmb_model_compile(r->model, &compile);
 }
 
 static int open_rig(rig *r)
 {
-    scene_book book = {NULL, 0, 0, 0};
     int32_t status = dmb_model_create(NULL, &r->model);
-    if (status >= 0) status = describe(r, &book);
+    if (status >= 0) status = describe(r);
     if (status >= 0) status = dmb_sim_create(r->model, NULL, &r->sim);
-    if (scene_write(&book, "scene.bin", "{rig-1}") != 0)
+    scene_settings settings = scene_settings_default(); /* of the unit */
+    settings.outputs = r->outputs;
+    settings.output_count = 2;
+    settings.step = 1e-3;
+    if (status >= 0 && scene_write("scene.bin", "{rig-1}", r->model, &settings) != 0)
         return (void)fprintf(stderr, "scene.bin cannot be written\n"), 1;
     if (status < 0) (void)fprintf(stderr, "%s\n", dmb_model_message(r->model));
     return status < 0;

@@ -59,6 +59,9 @@ DMB_API int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *na
 /* The part of that name, of a kind or (DMB_PART_ANY) of all. DMB_ERR_ID: there is none; DMB_ERR_VALUE: parts of several
  * kinds have it, give the kind. *part is left as it was then. */
 DMB_API int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, dmb_id *part);
+/* The part whose id has that index (of dmb_id), as another model of the same description gave it out; *part is left as
+ * it was with DMB_ERR_ID: there is none. */
+DMB_API int32_t dmb_model_part(const dmb_model *model, uint32_t index, dmb_id *part);
 /* The pipes that one call of dmb_model_add_pipes added under that name (`name` of dmb_pipe_def): *count pipes of
  * *string from *first on. Each may be NULL. DMB_ERR_ID. */
 DMB_API int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first,

@@ -248,6 +248,17 @@ int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, d
     return DMB_OK;
 }
 
+int32_t dmb_model_part(const dmb_model *model, uint32_t index, dmb_id *part)
+{
+    uint32_t kind, number;
+    if (model == NULL || part == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "find", DMB_ERR_HANDLE);
+    const dmb_id found = {index, model->stamp};
+    if (read_id(model, found, &kind, &number) < 0) return dmb_model_failed(model, "find", DMB_ERR_ID);
+    *part = found;
+    return DMB_OK;
+}
+
 int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first, uint32_t *count)
 {
     if (model == NULL || name == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);

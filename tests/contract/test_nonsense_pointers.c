@@ -390,6 +390,8 @@ static void of_names(void **state)
     MISSING(dmb_model_find(NULL, DMB_PART_STRING, "a", &id));
     MISSING(dmb_model_find(model, DMB_PART_STRING, NULL, &id));
     MISSING(dmb_model_find(model, DMB_PART_STRING, "a", NULL));
+    MISSING(dmb_model_part(NULL, id.index, &id));
+    MISSING(dmb_model_part(model, id.index, NULL));
     MISSING(dmb_model_find_pipes(NULL, "a", &id, &first, &count));
     MISSING(dmb_model_find_pipes(model, NULL, &id, &first, &count));
     MISSING(dmb_model_write(NULL, NULL, 0, &size));
@@ -401,6 +403,7 @@ static void of_names(void **state)
     NO_OBJECT(dmb_model_set_name(JUNK(dmb_model), s.string, "a"));
     NO_OBJECT(dmb_model_get_name(JUNK(dmb_model), s.string, name, sizeof name));
     NO_OBJECT(dmb_model_find(JUNK(dmb_model), DMB_PART_STRING, "a", &id));
+    NO_OBJECT(dmb_model_part(JUNK(dmb_model), 1, &id));
     NO_OBJECT(dmb_model_find_pipes(JUNK(dmb_model), "a", &id, &first, &count));
 }
 

@@ -229,9 +229,14 @@ static void open_for_changes(void **state)
     must(dmb_model_find_pipes(copy, "collars", NULL, &first, &count));
     assert_int_equal(first, 0);
     assert_int_equal(count, 3);
-    dmb_id id;
+    dmb_id id, same;
     must(dmb_model_find(copy, DMB_PART_TIME_FUNCTION, "speed", &id));
     must(dmb_model_find(copy, DMB_PART_ANY, "table", &id));
+    must(dmb_model_part(copy, id.index, &same));
+    assert_true(dmb_id_equal(id, same));
+    assert_int_equal(dmb_model_part(copy, id.index + 1, &same), DMB_ERR_ID);
+    assert_int_equal(dmb_model_part(copy, 0, &same), DMB_ERR_ID);
+    assert_true(dmb_id_equal(id, same));
     must(dmb_model_find(copy, DMB_PART_STRING, "upper", &pipe.string));
     assert_int_equal(dmb_model_add_pipes(copy, &pipe, 1, NULL), DMB_ERR_ORDER); /* a sub continues it */
     must(dmb_model_clear_refused(copy));

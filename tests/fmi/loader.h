@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-#include "scene_record.h"
+#include "scene_format.h"
 
 #define TOKEN "{rig}"
 enum { SPEED = 100000, FRICTION = 100001, TORQUE = 200000, BIT_SPEED = 200001, FAST = 300000, OUTPUTS = 2 };
@@ -35,35 +35,30 @@ static inline void must(int32_t status, const char *message)
     if (status < 0) fail_msg("%d: %s", (int)status, message);
 }
 
-/* Describes by the library and notes it. */
-#define DESCRIBE(r, book, name, def, id)                                                 \
-    do {                                                                                 \
-        must(dmb_model_##name((r)->model, &(def), (id)), dmb_model_message((r)->model)); \
-        SCENE_NOTE((book), #name, (def));                                                \
-    } while (0)
+#define DESCRIBE(r, name, def, id) must(dmb_model_##name((r)->model, &(def), (id)), dmb_model_message((r)->model))
 
-static inline void describe_inputs(rig *r, scene_book *book, dmb_id head, int has_event)
+static inline void describe_inputs(rig *r, dmb_id head, int has_event)
 {
     dmb_input_def input = dmb_input_def_default();
     strcpy(input.name, "speed");
     input.part = head;
     input.low = 0.0;
     input.high = 30.0;
-    DESCRIBE(r, book, add_input, input, &r->speed);
+    DESCRIBE(r, add_input, input, &r->speed);
     input = dmb_input_def_default();
     strcpy(input.name, "friction");
     input.target = DMB_TARGET_FRICTION;
-    DESCRIBE(r, book, add_input, input, &r->friction);
+    DESCRIBE(r, add_input, input, &r->friction);
     if (!has_event) return;
     dmb_event_def event = dmb_event_def_default();
     dmb_id made;
     strcpy(event.name, "fast");
     event.output = r->outputs[1];
     event.level = 5.0;
-    DESCRIBE(r, book, add_event, event, &made);
+    DESCRIBE(r, add_event, event, &made);
 }
 
-static inline dmb_id describe_rig(rig *r, scene_book *book)
+static inline dmb_id describe_rig(rig *r)
 {
     static const double depths[] = {0.0, 1.5, 0.3, 4.0, 1.4, 0.3, 20.0, 1.3, 0.4}, times[] = {0.0, 0.02, 0.1},
                         speeds[] = {0.0, 4.0, 8.0};
@@ -71,16 +66,14 @@ static inline dmb_id describe_rig(rig *r, scene_book *book)
     wall.survey_count = 3;
     wall.survey = depths;
     dmb_id hole, string, time_function, head;
-    DESCRIBE(r, book, add_wall, wall, &hole);
+    DESCRIBE(r, add_wall, wall, &hole);
     dmb_hole_section section = dmb_hole_section_default();
     section.depth = 3.0;
     section.mu_static = section.mu_dynamic = 0.5;
     must(dmb_model_add_hole_sections(r->model, &section, 1), dmb_model_message(r->model));
-    SCENE_NOTE(book, "add_hole_sections", section);
     dmb_pipe_def pipe = dmb_pipe_def_default();
     pipe.eccentricity = 1e-3;
     must(dmb_model_add_pipes(r->model, &pipe, 5, &string), dmb_model_message(r->model));
-    scene_note(book, "add_pipes", &pipe, sizeof pipe, 1, 5);
     dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     terms[0].h0 = 0.5;
     terms[1].kind = DMB_SEGMENT_TABLE;
@@ -88,14 +81,13 @@ static inline dmb_id describe_rig(rig *r, scene_book *book)
     terms[1].table_time = times;
     terms[1].table_value = speeds;
     must(dmb_model_add_time_function(r->model, terms, 2, &time_function), dmb_model_message(r->model));
-    scene_note(book, "add_time_function", terms, sizeof *terms, 2, 1);
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = string;
     drive.component = DMB_RX;
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 300.0;
     drive.time_function = time_function;
-    DESCRIBE(r, book, add_drive, drive, &head);
+    DESCRIBE(r, add_drive, drive, &head);
     r->outputs[0] = (dmb_output){{head, 0, 0, 0.0}, DMB_OUTPUT_DRIVE_FORCE, 0};
     r->outputs[1] = (dmb_output){{string, 0, 0, 0.0}, DMB_OUTPUT_BIT_SPEED, 0};
     return head;
@@ -104,22 +96,22 @@ static inline dmb_id describe_rig(rig *r, scene_book *book)
 /* A curved hole in two sections, five pipes, a speed controller that follows a table until its input is set. */
 static inline void open_rig(rig *r, int has_event)
 {
-    scene_book book = {0};
     memset(r, 0, sizeof *r);
     const char *temporary = getenv("TMPDIR");
     snprintf(r->folder, sizeof r->folder, "%s/drillmbd fmu XXXXXX", temporary && *temporary ? temporary : "/tmp");
     if (!mkdtemp(r->folder)) fail_msg("no folder");
     must(dmb_model_create(NULL, &r->model), "create");
-    const dmb_id head = describe_rig(r, &book);
-    describe_inputs(r, &book, head, has_event);
+    const dmb_id head = describe_rig(r);
+    describe_inputs(r, head, has_event);
     const dmb_compile_options compile = dmb_compile_options_default();
     must(dmb_model_compile(r->model, &compile), dmb_model_message(r->model));
-    SCENE_NOTE(&book, "compile", compile);
-    for (int i = 0; i < OUTPUTS; ++i) scene_note_output(&book, r->outputs[i]);
-    scene_note_step(&book, has_event ? 0.0 : step_length);
+    scene_settings settings = scene_settings_default();
+    settings.outputs = r->outputs;
+    settings.output_count = OUTPUTS;
+    settings.step = has_event ? 0.0 : step_length;
     char path[128];
     snprintf(path, sizeof path, "%s/scene.bin", r->folder);
-    assert_int_equal(scene_write(&book, path, TOKEN), 0);
+    assert_int_equal(scene_write(path, TOKEN, r->model, &settings), 0);
 }
 
 static inline void close_rig(rig *r)

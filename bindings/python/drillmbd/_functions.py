@@ -114,6 +114,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_input_count": (c_uint32, c_void_p,),
     "dmb_model_message": (c_char_p, c_void_p,),
     "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
+    "dmb_model_part": (c_int32, c_void_p, c_uint32, POINTER(Id),),
     "dmb_model_place_at_end": (c_int32, c_void_p, Id, c_double, POINTER(BodyDef), POINTER(StringDef),),
     "dmb_model_read": (c_int32, c_void_p, c_size_t, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
@@ -372,6 +373,8 @@ FUNCTION_DOCS = {
         "[-] inputs described so far; 0 for a bad handle. Number `index` in that order, by name: ERR_ID for none.",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of a compiled model, and of questions, each thread reads the failure of its own calls.",
+    "dmb_model_part":
+        "The part whose id has that index (of dmb_id), as another model of the same description gave it out; *part is left as it was with ERR_ID: there is none.",
     "dmb_model_place_at_end":
         "Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other joints hold there. Either may be NULL. Errors: as above.",
     "dmb_model_read":

@@ -106,6 +106,13 @@ class Usage(ValueError):
     """A command line or a scene that does not fit the question."""
 
 
+def last_message() -> bytes:
+    """The message of the thread's last failing call."""
+    from ._structs import ErrorStruct
+    last: Any = ErrorStruct()
+    return last.message if lib.dmb_last_error(byref(last)) >= 0 else b""
+
+
 def check(status: int, message: bytes = b"") -> int:
     """The status, if it is none of an error; else raises Error."""
     if status < 0:

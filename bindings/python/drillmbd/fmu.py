@@ -23,16 +23,14 @@ import sys
 import zipfile
 import zlib
 from collections.abc import Iterator
-from ctypes import sizeof
 from dataclasses import dataclass
 from typing import Any
 from xml.etree import ElementTree
 
 from . import _library, enums
-from ._record import Record
-from ._structs import Output, Id, Place, SimOptions, StaticOptions
+from ._structs import CompileOptions, Place, SimOptions, StaticOptions
+from .errors import Error
 from .outputs import output_unit
-from .model import _DEFINITIONS
 from .scene import Scene
 from .scene.fields import drive_unit
 
@@ -60,108 +58,34 @@ class CannotExport(ValueError):
 
 
 # ---- The scene as bytes: bindings/fmi/scene_format.h -----------------------------------------------------------------
-MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 2, 8, 48
-ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
-          "add_wall": (("survey", "survey_count", 3),),
-          "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
-CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_stabiliser", "add_joint", "add_coupling", "add_drive",
-         "add_load", "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_time_function",
-         "add_hole_sections", "set_environment", "set_name", "compile"}
-
-
-class _Output(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("output", Output)]
-
-
-class _Name(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id),
-                ("name", ctypes.c_char * 24)]
-
-
-class _Run(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("step", ctypes.c_double)]
-
-
-def _ids(kind: Any, value: Any, offset: int) -> Iterator[int]:
-    """Offsets of the ids in a struct that name a part."""
-    if isinstance(value, Id):
-        if value:
-            yield offset
-    elif isinstance(value, ctypes.Array):
-        for number, one in enumerate(value):
-            yield from _ids(type(one), one, offset + number * sizeof(kind._type_))
-    elif isinstance(value, ctypes.Structure):
-        for name, part in type(value)._fields_:  # type: ignore[misc]
-            yield from _ids(part, getattr(value, name), offset + getattr(type(value), name).offset)
+MAGIC, FORMAT, HEADER, TOKEN, HAS_STATIC = b"DMBSCENE", 3, 32, 48, 1
 
 
 def _is_pointer(kind: Any) -> bool:
     return isinstance(kind, type) and (issubclass(kind, (ctypes._Pointer, ctypes.c_void_p)) or hasattr(kind, "_flags_"))
 
 
-def _bare(call: str, one: Any) -> bytearray:
-    """The bytes of a struct, pointers as NULL: the arrays behind them go along, nothing else can."""
-    found = bytearray(bytes(one))
-    arrays = [name for name, _, _ in ARRAYS.get(call, ())]
-    for name, kind in type(one)._fields_:
+def _options(name: str, options: Any) -> bytes:
+    """All fields that are numbers, in the order of their struct."""
+    numbers = []
+    for field, kind in type(options)._fields_:
         if _is_pointer(kind):
-            if getattr(one, name) and name not in arrays:
-                raise CannotExport(f"unit refused: {call}, {name} points to data that a unit cannot contain; leave it out")
-            offset, size = getattr(type(one), name).offset, sizeof(kind)
-            found[offset:offset + size] = bytes(size)
-    return found
+            if getattr(options, field):
+                raise CannotExport(f"unit refused: {name}, {field} points to data that a unit cannot contain; leave it out")
+        elif field not in ("struct_size", "reserved"):
+            numbers.append(float(getattr(options, field)))
+    return struct.pack(f"<I{len(numbers)}d", len(numbers), *numbers)
 
 
-def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
-    """One call with its structs, where their ids stand, and the arrays that they point to."""
-    bare, places, numbers = [_bare(call, one) for one in structs], bytearray(), bytearray()
-    total = ids = 0
-    for index, one in enumerate(structs):
-        for offset in _ids(type(one), one, 0):
-            struct.pack_into("<I", bare[index], offset + 4, 1)  # the stamp of this model: the unit's has another
-            places += struct.pack("<II", index, offset)
-            ids += 1
-        for name, of, width in ARRAYS.get(call, ()):
-            length = getattr(one, of) * width
-            numbers += struct.pack(f"<{length}d", *getattr(one, name)[:length]) if length else b""
-            total += length
-    head = struct.pack("<24sIIIIII", call.encode(), count, len(structs), sizeof(structs[0]), ids, total, 0)
-    return b"".join([head, *bare, places, numbers])
-
-
-def _refuse_functions(segments: tuple[Any, ...]) -> None:
-    if any(one.get("function") is not None for one in segments):
-        raise CannotExport("unit refused: a time function is a function of Python, which stays in Python; "
-                           "give it as a table")
-
-
-def _calls(scene: Scene) -> Iterator[bytes]:
-    """The calls that describe the model."""
-    for name, arguments in scene.model.calls:
-        if name not in CALLS:
-            raise CannotExport(f"unit refused: the scene has a part made by {name}, which a unit cannot have: "
-                               "functions of Python stay in Python; leave the part out")
-        count = 1
-        if name == "add_pipes":
-            count, *arguments = arguments  # type: ignore[assignment]
-        if name == "add_time_function":
-            _refuse_functions(arguments)
-        if name == "set_name":
-            yield _record(name, [_Name(sizeof(_Name), 0, arguments[0], arguments[1].encode())])
-            continue
-        cls = _DEFINITIONS[name]
-        yield _record(name, [one if isinstance(one, Record) else cls(**one) for one in arguments], count)
-
-
-def _asked(scene: Scene) -> Iterator[bytes]:
-    """The beginning of the run, its steps, and its outputs."""
-    yield _record("sim", [SimOptions(**scene.sim)])
-    if scene.run.get("static", 0):
-        yield _record("static", [StaticOptions(**scene.fields_of("static"))])
-    yield _record("run", [_Run(sizeof(_Run), 0, _step(scene))])
+def _settings(scene: Scene) -> bytes:
+    """Options of compile, sim and static state, the length of steps, and the outputs."""
+    compiled = next((arguments[0] for name, arguments in scene.model.calls if name == "compile"), {})
+    found = [_options("compile", CompileOptions(**compiled)), _options("sim", SimOptions(**scene.sim)),
+             _options("static", StaticOptions(**scene.fields_of("static"))), struct.pack("<dI", _step(scene), len(scene.outputs))]
     for _, place, quantity in scene.outputs:
-        yield _record("output", [_Output(sizeof(_Output), 0, Output(place=Place() if place is None else place,
-                                                                     quantity=quantity))])
+        at = Place() if place is None else place
+        found.append(struct.pack("<IIdi", at.part.index, at.pipe, at.fraction, quantity))
+    return b"".join(found)
 
 
 def _step(scene: Scene) -> float:
@@ -171,14 +95,16 @@ def _step(scene: Scene) -> float:
 
 def scene_bytes(scene: Scene) -> tuple[bytes, str]:
     """The file resources/scene.bin and the token of the unit, which is computed from its content."""
-    if sys.byteorder != "little" or sizeof(ctypes.c_void_p) != LAYOUT:
-        raise CannotExport("unit refused: this machine is not little-endian with 64 bits, as units must be")
-    body = b"".join([*_calls(scene), *_asked(scene)])
-    digest = hashlib.sha256(body).hexdigest()
+    try:
+        record = scene.model.record()
+    except Error as error:
+        raise CannotExport(f"unit refused: {error}") from error
+    flags = HAS_STATIC if scene.run.get("static", 0) else 0
+    body = struct.pack("<I", len(record)) + record + _settings(scene)
+    digest = hashlib.sha256(struct.pack("<I", flags) + body).hexdigest()
     token = "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
     named = token.encode().ljust(TOKEN, b"\0") + body
-    head = struct.pack("<8sIIQII", MAGIC, FORMAT, LAYOUT, 32 + len(named), zlib.crc32(named), 0)
-    return head + named, token
+    return struct.pack("<8sIIQII", MAGIC, FORMAT, flags, HEADER + len(named), zlib.crc32(named), 0) + named, token
 
 
 # ---- Variables -------------------------------------------------------------------------------------------------------
@@ -436,7 +362,7 @@ def source_files(folder: pathlib.Path) -> dict[str, bytes]:
     for below, target, pattern in (("lib", "", "**/*.[ch]"), ("include", "", "drillmbd/*.h"),
                                    ("bindings/fmi", "fmi/", "*.[ch]")):
         for path in sorted((folder / below).glob(pattern)):
-            if path.name not in ("scene_record.c", "scene_record.h"):  # these write scenes
+            if path.name != "scene_write.c":  # writes scenes
                 found[target + path.relative_to(folder / below).as_posix()] = path.read_bytes()
     return found
 

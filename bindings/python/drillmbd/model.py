@@ -16,7 +16,7 @@ from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, C
                        SubDef, Segment, TimeFunctionId, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
 from .enums import ERR_ORDER, NAME_SIZE, SEGMENT_STEP5, PartKind, Status
-from .errors import Error, check, status_text
+from .errors import Error, check, last_message, status_text
 
 if TYPE_CHECKING:
     from ._typed import ModelCalls
@@ -106,9 +106,13 @@ class Model(Handle, ModelCalls):
     def record(self) -> bytes:
         """The scene record, which C programs read by dmb_model_read."""
         size = c_size_t()
-        self._check(_lib.dmb_model_write(self._handle, None, 0, byref(size)))
+        status = _lib.dmb_model_write(self._handle, None, 0, byref(size))
         found = create_string_buffer(size.value)
-        self._check(_lib.dmb_model_write(self._handle, found, size, byref(size)))
+        if status >= 0:
+            status = _lib.dmb_model_write(self._handle, found, size, byref(size))
+        if is_closed(self._handle, status):
+            raise closed("model")
+        check(status, last_message() if status < 0 else b"")
         return found.raw
 
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
