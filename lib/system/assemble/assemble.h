@@ -264,6 +264,8 @@ void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i);
 
 /* ---- Free rigid bodies ------------------------------------------------------------------------------------------- */
 
+/* The free rigid body on a node, or DMB_NONE. */
+uint32_t dmb_free_rigid_on(const dmb_scene *scene, uint32_t node);
 /* Prediction of the rows of free rigid bodies; the coefficients are those of the other rows. */
 void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_args *args);
 /* Correction of their rows. */

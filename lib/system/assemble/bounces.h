@@ -37,8 +37,12 @@ void dmb_bounce_ends(const dmb_sim *sim, uint32_t u, dmb_unilateral_end *a, dmb_
  * along the mean gradient of both ends of the step (eq:unilateral.turning). */
 void dmb_bounce_press(dmb_evaluation *evaluation, const dmb_configuration *at, uint32_t u, double force);
 void dmb_bounce_press_mean(dmb_evaluation *evaluation, uint32_t u, double force);
-/* 1: the node is integrated in axes that turn with it, in which mean forces have the mean gradient. */
+/* 1: the rotation of the node is integrated in axes that turn with it, in which mean forces have the mean gradient. */
 int dmb_bounce_turns(const dmb_sim *sim, uint32_t node);
+/* Carries a wrench on a node at the start of the step to its end: of a free rigid body, the force keeps its direction
+ * and the couple about the centre of mass turns with the body (eq:unilateral.free-rigid); others turn as a whole.
+ * tangent, shape (6, 3), or NULL: its derivative by the rotation of the node at the end. */
+void dmb_bounce_carry(const dmb_sim *sim, uint32_t node, double w[6], double *tangent);
 /* Adds couples about the rotation of the step to the mean gradients of both parts, so that their change of the
  * coordinate by the increment of the step is the one that there is. */
 void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[6], uint32_t b, double Jb[6]);

@@ -18,6 +18,19 @@
 #include "element/rigid_mass.h"
 #include "math/so3.h"
 
+uint32_t dmb_free_rigid_on(const dmb_scene *scene, uint32_t node)
+{
+    uint32_t first = 0, end = scene->free_rigid_count;
+    while (first < end) {
+        const uint32_t middle = first + (end - first) / 2;
+        if (scene->free_rigids[middle].node < node)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first < scene->free_rigid_count && scene->free_rigids[first].node == node ? first : DMB_NONE;
+}
+
 /* ---- Between the node and the centre of mass -------------------------------------------------------------------- */
 
 /* (u; w) to (u + w x c; w) */

@@ -137,29 +137,47 @@ static void add_point(const dmb_evaluation *evaluation, const dmb_spring_motion 
     if (evaluation->dynamic) add_rate(scene, point, line, sign, A, t);
 }
 
-static void add_gradient(const dmb_sim *sim, const dmb_spring_motion *m, const dmb_point_motion *point, double factor,
-                         const spring_tangent *t, double *row)
+/* One point of a spring in a step with a mean force: its state from which half of the gradient is taken, `sign` 1 at b
+ * and -1 at a, and that half as wrenches on its nodes at the end of the step. */
+typedef struct mean_point {
+    const dmb_point_motion *at;
+    double sign, wrench[12];
+    double turn[18]; /* its derivative by the rotation of a free rigid body at the end, shape (6, 3) */
+} mean_point;
+
+static void mean_point_of(const dmb_sim *sim, const dmb_spring_motion *before, const dmb_spring_motion *end, int b,
+                          mean_point *to)
 {
+    const dmb_point_motion *last = b ? &end->b : &end->a;
+    const int turns = last->nodes > 0 && dmb_bounce_turns(sim, last->node[0]);
+    const dmb_spring_motion *m = turns ? before : end;
     double line[6];
-    if (point->nodes == 0) return;
-    line_at(point, m->n, line);
-    dmb_vec3_scale(factor, line, line);
-    dmb_force_tangent_row(sim->scene, &t->sum, point, line, row);
+    memset(to, 0, sizeof *to);
+    to->at = b ? &m->b : &m->a;
+    to->sign = b ? 1.0 : -1.0;
+    if (last->nodes == 0) return;
+    line_at(to->at, m->n, line);
+    for (int k = 0; k < 12; k++)
+        for (int i = 0; i < 3; i++) to->wrench[k] += 0.5 * to->sign * to->at->map[12 * i + k] * line[i];
+    if (turns) dmb_bounce_carry(sim, last->node[0], to->wrench, to->turn);
 }
 
-/* The mean gradient of both ends of the step (pull_mean). */
-static void mean_gradient(const dmb_sim *sim, const dmb_spring_motion *before, const dmb_spring_motion *end,
-                          const spring_tangent *t, double *row)
+/* The mean gradient of both ends of the step (pull_mean), and the change of its first half with the rotation of a free
+ * rigid body under the tension. */
+static void mean_gradient(const dmb_sim *sim, const mean_point point[2], double tension, spring_tangent *t, double *row)
 {
-    const dmb_spring_motion *at_b = end->b.nodes > 0 && dmb_bounce_turns(sim, end->b.node[0]) ? before : end;
-    const dmb_spring_motion *at_a = end->a.nodes > 0 && dmb_bounce_turns(sim, end->a.node[0]) ? before : end;
     for (uint32_t c = 0; c < t->sum.columns; c++) row[c] *= 0.5;
-    add_gradient(sim, at_b, &at_b->b, 0.5, t, row);
-    add_gradient(sim, at_a, &at_a->a, -0.5, t, row);
+    for (int p = 0; p < 2; p++) {
+        double A[144] = {0.0};
+        if (point[p].at->nodes == 0) continue;
+        dmb_force_tangent_columns(sim->scene, &t->sum, point[p].at, point[p].wrench, row);
+        for (int i = 0; i < 18; i++) A[12 * (i / 3) + 3 + i % 3] = point[p].turn[i];
+        dmb_force_tangent_block(sim->scene, &t->sum, point[p].at, tension, A);
+    }
 }
 
 static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m,
-                        const dmb_spring_motion *before)
+                        const mean_point *mean)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     const double by_elongation = m->force.by_elongation, by_speed = evaluation->dynamic ? m->force.by_speed : 0.0;
@@ -172,8 +190,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spri
     dmb_force_tangent_touch(scene, &m->b, &t.sum);
     dmb_force_tangent_clear(&t.sum);
     turn_of_line(scene, m, &t);
-    const double at_end =
-        before != NULL ? 0.5 * m->force.elastic + m->force.damper : m->force.elastic + m->force.damper;
+    const double at_end = mean != NULL ? 0.5 * m->force.elastic + m->force.damper : m->force.elastic + m->force.damper;
     add_point(evaluation, m, &m->b, 1.0, at_end, &t);
     add_point(evaluation, m, &m->a, -1.0, at_end, &t);
     relative_velocity(m, v);
@@ -181,7 +198,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spri
     for (uint32_t c = 0; c < n && evaluation->dynamic; c++)
         for (int i = 0; i < 3; i++) t.rate[c] += v[i] * t.turn[i][c];
     memcpy(rows, t.gradient, sizeof rows);
-    if (before != NULL) mean_gradient(evaluation->sim, before, m, &t, rows);
+    if (mean != NULL) mean_gradient(evaluation->sim, mean, m->force.elastic, &t, rows);
     for (uint32_t r = 0; r < n; r++)
         for (uint32_t c = 0; c < n; c++)
             t.sum.K[(size_t)r * n + c] +=
@@ -204,50 +221,53 @@ static void pull(dmb_sim *sim, const dmb_point_motion *point, const double n[3],
     dmb_point_apply(sim, point, w);
 }
 
-/* J of one point, by half of a unit of tension; `sign` -1 at a. */
-static void add_unit(const dmb_spring_motion *m, const dmb_point_motion *point, double sign, double J[6])
-{
-    double line[6];
-    if (point->nodes == 0) return;
-    line_at(point, m->n, line);
-    for (int k = 0; k < 6; k++)
-        for (int i = 0; i < 6; i++) J[k] += 0.5 * sign * point->map[12 * i + k] * line[i];
-}
-
 /* Couples of bodies that turn (dmb_bounce_close_gap); points inside elements have none. */
-static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *before, const dmb_spring_motion *end,
+static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *end, const mean_point point[2],
                       double tension)
 {
-    const dmb_point_motion *point[2] = {&end->a, &end->b}, *old[2] = {&before->a, &before->b};
-    double J[2][6] = {{0.0}}, couple[6] = {0.0}, ends[2][3];
+    const dmb_point_motion *last[2] = {&end->a, &end->b};
+    double J[2][6] = {{0.0}}, couple[6] = {0.0}, ends[2][3], line[6];
     uint32_t node[2];
     if (end->a.nodes > 1 || end->b.nodes > 1) return;
-    for (int k = 0; k < 2; k++) {
-        node[k] = point[k]->nodes > 0 ? point[k]->node[0] : DMB_NONE;
-        add_unit(before, old[k], k == 0 ? -1.0 : 1.0, J[k]);
-        add_unit(end, point[k], k == 0 ? -1.0 : 1.0, J[k]);
-        dmb_vec3_copy(J[k] + 3, ends[k]);
+    for (int p = 0; p < 2; p++) {
+        node[p] = last[p]->nodes > 0 ? last[p]->node[0] : DMB_NONE;
+        line_at(last[p], end->n, line);
+        for (int k = 0; k < 6; k++) {
+            J[p][k] = point[p].wrench[k];
+            for (int i = 0; i < 3; i++) J[p][k] += 0.5 * point[p].sign * last[p]->map[12 * i + k] * line[i];
+        }
+        dmb_vec3_copy(J[p] + 3, ends[p]);
     }
     dmb_bounce_close_gap(sim, dmb_bounce_of_spring(sim->scene, spring), node[0], J[0], node[1], J[1]);
-    for (int k = 0; k < 2; k++) {
-        if (node[k] == DMB_NONE) continue;
-        dmb_vec3_sub(J[k] + 3, ends[k], couple + 3);
+    for (int p = 0; p < 2; p++) {
+        if (node[p] == DMB_NONE) continue;
+        dmb_vec3_sub(J[p] + 3, ends[p], couple + 3);
         dmb_vec3_scale(-tension, couple + 3, couple + 3);
-        dmb_apply_wrench(sim, node[k], couple);
+        dmb_apply_wrench(sim, node[p], couple);
     }
 }
 
 /* A mean force: half along the gradient of the start of the step, in nodes that turn. */
-static void pull_mean(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *before, const dmb_spring_motion *end,
+static void pull_mean(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *end, const mean_point point[2],
                       double tension)
 {
-    const dmb_spring_motion *at_b = end->b.nodes > 0 && dmb_bounce_turns(sim, end->b.node[0]) ? before : end;
-    const dmb_spring_motion *at_a = end->a.nodes > 0 && dmb_bounce_turns(sim, end->a.node[0]) ? before : end;
     pull(sim, &end->b, end->n, -0.5 * tension);
     pull(sim, &end->a, end->n, 0.5 * tension);
-    pull(sim, &at_b->b, at_b->n, -0.5 * tension);
-    pull(sim, &at_a->a, at_a->n, 0.5 * tension);
-    close_gap(sim, spring, before, end, tension);
+    for (int p = 1; p >= 0; p--)
+        for (uint32_t n = 0; n < point[p].at->nodes; n++) {
+            double w[6];
+            dmb_vec3_scale(-tension, point[p].wrench + 6 * n, w);
+            dmb_vec3_scale(-tension, point[p].wrench + 6 * n + 3, w + 3);
+            dmb_apply_wrench(sim, point[p].at->node[n], w);
+        }
+    close_gap(sim, spring, end, point, tension);
+}
+
+static void mean_points_of(const dmb_sim *sim, uint32_t spring, const dmb_spring_motion *end, dmb_spring_motion *before,
+                           mean_point point[2])
+{
+    dmb_spring_motion_of(sim->scene, &sim->now, spring, 0, before);
+    for (int p = 0; p < 2; p++) mean_point_of(sim, before, end, p, point + p);
 }
 
 /* Rounding of the length, a difference of large numbers, as for springs of joints (system/assemble/joint_forces). */
@@ -280,14 +300,15 @@ static void assemble_spring(dmb_evaluation *evaluation, uint32_t i)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_spring *spring = sim->scene->springs + i;
     dmb_spring_motion m, before;
+    mean_point point[2];
     int mean = 0;
     dmb_spring_motion_of(sim->scene, &sim->trial, i, evaluation->dynamic, &m);
     double heat = -m.force.damper * m.rate;
     if (sim->scene->unilateral_count > 0) heat = take_own(evaluation, i, &m, &mean);
     const double tension = m.force.elastic + m.force.damper, at_end = mean ? m.force.damper : tension;
     if (mean) {
-        dmb_spring_motion_of(sim->scene, &sim->now, i, 0, &before);
-        pull_mean(sim, i, &before, &m, m.force.elastic);
+        mean_points_of(sim, i, &m, &before, point);
+        pull_mean(sim, i, &m, point, m.force.elastic);
     }
     if (at_end != 0.0 || !mean) {
         pull(sim, &m.b, m.n, -at_end);
@@ -296,15 +317,16 @@ static void assemble_spring(dmb_evaluation *evaluation, uint32_t i)
     count_rounding(evaluation, spring, &m);
     evaluation->power[DMB_POWER_POTENTIAL] -= tension * m.rate + heat;
     evaluation->power[DMB_POWER_DAMPING] += heat;
-    if (evaluation->tangent) add_tangent(evaluation, spring, &m, mean ? &before : NULL);
+    if (evaluation->tangent) add_tangent(evaluation, spring, &m, mean ? point : NULL);
 }
 
 void dmb_spring_press_mean(dmb_sim *sim, uint32_t spring, double tension)
 {
     dmb_spring_motion before, end;
-    dmb_spring_motion_of(sim->scene, &sim->now, spring, 0, &before);
+    mean_point point[2];
     dmb_spring_motion_of(sim->scene, &sim->trial, spring, 0, &end);
-    pull_mean(sim, spring, &before, &end, tension);
+    mean_points_of(sim, spring, &end, &before, point);
+    pull_mean(sim, spring, &end, point, tension);
 }
 
 void dmb_spring_press(dmb_sim *sim, const dmb_configuration *at, uint32_t spring, double tension)
