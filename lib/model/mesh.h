@@ -216,8 +216,8 @@ int32_t dmb_mesh_cuts(dmb_mesh *mesh);
 /* [m] Diameter to which a bit, or the reamers of a stabiliser, widen the hole; 0: they do not. */
 double dmb_mesh_bit_cuts(const dmb_mesh *mesh, uint32_t bit);
 double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring);
-/* Checks that all parts with wall contact fit into a hole of sections at their described positions. DMB_ERR_GEOMETRY.
- */
+/* Checks that no part with wall contact is wider than the hole at its described position; a clearance of 0 constrains a
+ * pipe to the axis. DMB_ERR_GEOMETRY. */
 int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);
 int32_t dmb_mesh_ring_places(dmb_mesh *mesh);

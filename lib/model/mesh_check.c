@@ -128,64 +128,6 @@ static int32_t check_strings(const dmb_mesh *mesh, dmb_message *message)
     return status;
 }
 
-/* ---- Through the hole -------------------------------------------------------------------------------------------- */
-
-/* The name in messages of part i of a kind, of run i for pipes. */
-static const char *text_of(const dmb_model *model, uint32_t kind, uint32_t i, dmb_message *text)
-{
-    if (kind != DMB_PART_STRING) return dmb_model_part_text(model, kind, i, text);
-    const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
-    return dmb_pipes_text(text, run->string, &run->def);
-}
-
-static int32_t check_fits(const dmb_model *model, dmb_message *message, uint32_t kind, uint32_t i, const char *field,
-                          double diameter)
-{
-    dmb_message bound, part;
-    if (diameter <= model->wall.diameter) return DMB_OK;
-    dmb_message_set(&bound, "<= diameter of the wall (%g)", model->wall.diameter);
-    dmb_check check = dmb_check_of(message, text_of(model, kind, i, &part), DMB_NONE);
-    dmb_check_fail(&check, DMB_ERR_GEOMETRY, field, diameter, bound.text);
-    return check.status;
-}
-
-static int32_t check_run_fits(const dmb_model *model, dmb_message *message, uint32_t i)
-{
-    const dmb_pipe_def *def = &DMB_LIST_AT(const dmb_pipe_run, model->runs, i)->def;
-    const int32_t status = check_fits(model, message, DMB_PART_STRING, i, "outer_diameter", def->outer_diameter);
-    if (status < 0) return status;
-    return check_fits(model, message, DMB_PART_STRING, i, "joint_outer_diameter", dmb_joint_diameter(def));
-}
-
-/* Checks that parts with wall contact are not wider than the hole; a clearance of 0 is a pipe constrained to the axis.
- */
-static int32_t check_diameters(const dmb_model *model, dmb_message *message)
-{
-    int32_t status;
-    if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
-    if (model->sections.count > 0 || model->wall.cut_spacing > 0.0) return DMB_OK; /* by depth: dmb_mesh_fits */
-    for (uint32_t i = 0; i < model->runs.count; ++i) {
-        status = check_run_fits(model, message, i);
-        if (status < 0) return status;
-    }
-    for (uint32_t i = 0; i < model->bodies.count; ++i) {
-        status = check_fits(model, message, DMB_PART_BODY, i, "contact_diameter",
-                            DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter);
-        if (status < 0) return status;
-    }
-    for (uint32_t i = 0; i < model->bits.count; ++i) {
-        status = check_fits(model, message, DMB_PART_BIT, i, "diameter",
-                            DMB_LIST_AT(const dmb_bit_def, model->bits, i)->diameter);
-        if (status < 0) return status;
-    }
-    for (uint32_t i = 0; i < model->rings.count; ++i) {
-        status = check_fits(model, message, DMB_PART_STABILISER, i, "outer_diameter",
-                            DMB_LIST_AT(const dmb_stabiliser_def, model->rings, i)->outer_diameter);
-        if (status < 0) return status;
-    }
-    return DMB_OK;
-}
-
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t pipes_of_string(const dmb_mesh *mesh, uint32_t string)
@@ -218,7 +160,6 @@ int32_t dmb_mesh_check(dmb_mesh *mesh)
     if (status >= 0) status = check_belonging(model, message);
     if (status >= 0) status = check_one_bit_a_string(mesh, message);
     if (status >= 0) status = check_strings(mesh, message);
-    if (status >= 0) status = check_diameters(model, message);
     for (uint32_t i = 0; i < model->loads.count && status >= 0; ++i) status = check_load(mesh, message, i);
     return status;
 }

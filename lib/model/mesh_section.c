@@ -195,14 +195,21 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh)
 
 /* ---- Through the hole -------------------------------------------------------------------------------------------- */
 
-static int32_t refuse_width(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double hole,
-                            double where)
+/* `hole` is the diameter of the hole at the measured depth `where`. */
+static int32_t check_width(const dmb_mesh *mesh, const char *part, const dmb_field_value *is, double hole, double where)
 {
-    dmb_message_set(&mesh->model->message,
-                    "%s: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
-                    "sections of the hole",
-                    part, field, diameter, hole, where);
-    return DMB_ERR_GEOMETRY;
+    dmb_message text;
+    if (is->value <= hole) return DMB_OK;
+    if (mesh->hole.pieces == 0)
+        dmb_message_set(&text, "<= %g m, the diameter of the hole", hole);
+    else
+        dmb_message_set(&text,
+                        "<= %g m, the diameter of the hole at measured depth %g m; look at the sections of the hole",
+                        hole, where);
+    dmb_check check = dmb_check_of(&mesh->model->message, part, DMB_NONE);
+    const dmb_check_bound must = {text.text, 0.0, hole};
+    dmb_check_fail_value(&check, DMB_ERR_GEOMETRY, is, &must);
+    return check.status;
 }
 
 /* The narrowest place between two depths is no narrower than `diameter`. */
@@ -211,7 +218,8 @@ static int32_t check_fits(const dmb_mesh *mesh, const char *part, const char *fi
 {
     double where;
     const double hole = 2.0 * dmb_hole_least_radius(&mesh->hole, from, to, &where);
-    return diameter <= hole ? DMB_OK : refuse_width(mesh, part, field, diameter, hole, where);
+    const dmb_field_value is = {field, DMB_NONE, diameter};
+    return check_width(mesh, part, &is, hole, where);
 }
 
 /* Checks the fit at one depth, where the part itself may widen the hole. */
@@ -219,7 +227,8 @@ static int32_t check_fits_cut(const dmb_mesh *mesh, const char *part, const char
                               double cut)
 {
     const double hole = fmax(cut, 2.0 * dmb_hole_radius(&mesh->hole, depth));
-    return diameter <= hole ? DMB_OK : refuse_width(mesh, part, field, diameter, hole, depth);
+    const dmb_field_value is = {field, DMB_NONE, diameter};
+    return check_width(mesh, part, &is, hole, depth);
 }
 
 static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_def *def, double from, double to)
@@ -261,7 +270,7 @@ int32_t dmb_mesh_fits(dmb_mesh *mesh)
     const dmb_model *model = mesh->model;
     dmb_message part;
     int32_t status;
-    if (mesh->hole.pieces == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
+    if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
     for (uint32_t s = 0; s < mesh->strings.count; s++) {
         status = check_string(mesh, s);
         if (status < 0) return status;

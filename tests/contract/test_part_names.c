@@ -155,7 +155,7 @@ static void told_of_every_kind(void **state)
     strcpy(wall.name, "pilot hole");
     must(dmb_model_add_wall(model, &wall, NULL));
     assert_int_equal(dmb_model_compile(model, NULL), DMB_ERR_GEOMETRY);
-    expect(dmb_model_message(model), "bit 0 (pdc): diameter = 0.2, must be <= diameter of the wall");
+    expect(dmb_model_message(model), "bit 0 (pdc): diameter = 0.2, must be <= 0.094 m, the diameter of the hole");
     dmb_model_destroy(&model);
 }
 

@@ -388,10 +388,10 @@ static void bad_tables_are_refused(void **state)
     expect_refusal(two, 1, BY_COMPILE, DMB_ERR_VALUE, "mu_static");
     two[0] = section(3.0);
     two[0].diameter = 0.0899;
-    expect_refusal(two, 1, BY_COMPILE, DMB_ERR_GEOMETRY, "joint_outer_diameter = 0.09 m, must be <= 0.0899 m");
+    expect_refusal(two, 1, BY_COMPILE, DMB_ERR_GEOMETRY, "joint_outer_diameter = 0.09, must be <= 0.0899 m");
     two[1] = section(4.0);
     two[1].diameter = 0.072;
-    expect_refusal(two + 1, 1, BY_COMPILE, DMB_ERR_GEOMETRY, "joint_outer_diameter = 0.09 m, must be <= 0.083 m");
+    expect_refusal(two + 1, 1, BY_COMPILE, DMB_ERR_GEOMETRY, "joint_outer_diameter = 0.09, must be <= 0.083 m");
 }
 
 static void bad_values_are_refused(void **state)
@@ -453,9 +453,9 @@ static int32_t compile_wide(int part, int32_t normal_law, char message[256])
 /* Without a wall that presses anything fits. */
 static void what_is_too_wide_is_refused(void **state)
 {
-    static const char *const told[3] = {"stabiliser 0: outer_diameter = 0.09 m, must be <= 0.08 m",
-                                        "body 0: contact_diameter = 0.09 m, must be <= 0.08 m",
-                                        "outer_diameter = 0.073 m, must be <= 0.07 m"};
+    static const char *const told[3] = {"stabiliser 0: outer_diameter = 0.09, must be <= 0.08 m",
+                                        "body 0: contact_diameter = 0.09, must be <= 0.08 m",
+                                        "outer_diameter = 0.073, must be <= 0.07 m"};
     char message[256];
     (void)state;
     for (int part = RING; part <= PIPE; part++) {
