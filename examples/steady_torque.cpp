@@ -1,5 +1,6 @@
-// The torque of a turning string in C++: rods that turn up to 120 rpm on the wall, and a value that is refused, told by
-// field, value and bound.
+// The torque of a turning string in C++: rods that turn up to 120 rpm on the wall, and a value that is refused, with
+// its field, value and bound.
+#include <cstring>
 #include <drillmbd/drillmbd.hpp>
 #include <iomanip>
 #include <iostream>
@@ -10,9 +11,9 @@ namespace
 
 const double rpm = 3.14159265358979323846 / 30.0;
 const char usage[] = "Usage: steady_torque\n"
-                     "30 rods of 3 m turn in a hole of 94 mm; tells the torque at the rig twice a second.\n";
+                     "30 rods of 3 m turn in a hole of 94 mm; prints the torque at the rig twice a second.\n";
 
-drillmbd::model describe(dmb_id &table)
+drillmbd::model describe()
 {
     drillmbd::model model;
     dmb_wall_def wall = dmb_wall_def_default();
@@ -28,9 +29,9 @@ drillmbd::model describe(dmb_id &table)
     turning.h1 = 120.0 * rpm;
     drive.component = DMB_RX;
     drive.time_function = model.add_time_function(turning);
-    table = model.add_drive(drive);
-    drive.component = DMB_X; // held along the hole
-    drive.time_function = model.add_time_function(dmb_segment_default());
+    std::strcpy(drive.name, "table");
+    model.add_drive(drive);
+    drive = dmb_drive_def_default(); // held along the hole
     model.add_drive(drive);
     model.compile();
     return model;
@@ -50,8 +51,8 @@ void refused()
 
 void run()
 {
-    dmb_id table = {0, 0};
-    const drillmbd::model model = describe(table);
+    const drillmbd::model model = describe();
+    const auto table = model.find<drillmbd::drive_id>("table");
     drillmbd::sim sim(model);
     sim.static_start();
     for (int i = 1; i <= 4; ++i) {

@@ -8,10 +8,6 @@ OWNERS = (  # of a class with a handle: pattern of the declaration, what it does
     (r"=\s*delete$", "There is one owner: it is moved, not copied."),
     (r"^~{name}\(\)", "Destroys its object."),
     (r"^explicit {name}\(dmb_\w+ \*", "Takes over a handle, or nothing."),
-    (r"^dmb_\w+ \*get\(\)", "The handle for C functions, or NULL; it stays the owner's."),
-    (r"^dmb_\w+ \*release\(\)", "The handle, now the caller's to destroy."),
-    (r"^void reset\(dmb_\w+ \*", "Destroys its object and takes over a handle, or nothing."),
-    (r"^explicit operator bool\(\)", "True where there is a handle."),
 )
 SILENT = re.compile(r"dmb_(?:status_\w+|\w+_default|\w+_init)$")
 
@@ -44,7 +40,7 @@ def items(text):
     """(kind, text, body): blank, comment, directive, access, open, close or declaration."""
     place = 0
     patterns = (("blank", r"[ \t]*\n"), ("comment", r"[ \t]*//[^\n]*\n"), ("directive", r"#(?:[^\n]*\\\n)*[^\n]*\n"),
-                ("access", r"[ \t]*(?:public|private):\n"), ("close", r"[ \t]*\};?(?:[ \t]*//[^\n]*)?\n"),
+                ("access", r"[ \t]*(?:public|protected|private):\n"), ("close", r"[ \t]*\};?(?:[ \t]*//[^\n]*)?\n"),
                 ("open", r"[ \t]*(?:template <[^;{]*?>\s*)?(?:class|struct|namespace) \w+[^;{(]*\{\n"))
     while place < len(text):
         for kind, pattern in patterns:
@@ -96,6 +92,8 @@ class CppWriter:
 
     def own_words(self, head, body):
         """Description of a declaration without a comment."""
+        if "= part_id<" in head:
+            return "The id of a part of this kind."
         names = re.findall(r"(\w+|operator\s*\S+?)\(", head)
         owner = self.scopes[-1] if self.scopes else ""
         for pattern, text in OWNERS:
@@ -138,10 +136,10 @@ class CppWriter:
         code = "".join(line[2:] + "\n" for line in first.splitlines() if line.startswith("//     "))
         told = [self.words(part.strip().splitlines()) for part in paragraphs if not part.strip().startswith("//     ")]
         self.out.append(f"/** @file drillmbd.hpp\n * {told[0]}\n@code{{.cpp}}\n{code}@endcode\n" + "\n\n".join(told[1:]) + " */\n")
-        private = []  # of each open scope: in its private part
+        private = []  # of each open scope: in a part that is not public
         for kind, part, body in items(text[len(first):]):
             if kind == "access":
-                private[-1] = "private" in part
+                private[-1] = "public" not in part
             elif kind == "open":
                 private.append(any(private))
                 if not any(private):

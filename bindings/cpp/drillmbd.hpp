@@ -1,10 +1,10 @@
 // libdrillmbd for C++11 and later: owners of models and sims that clean up after themselves, failures as exceptions.
-// Everything else is the C interface: its structs, ids, constants and units; see drillmbd/scene.h, sim.h, query.h.
+// Everything else is the C interface: its structs, ids, constants and units; see drillmbd/scene.h, run.h, ask.h.
 //
 //     drillmbd::model model;
 //     dmb_wall_def wall = dmb_wall_def_default();
 //     model.add_wall(wall);
-//     dmb_id string = model.add_pipes(dmb_pipe_def_default(), 100);
+//     drillmbd::string_id string = model.add_pipes(dmb_pipe_def_default(), 100);
 //     model.compile();
 //     drillmbd::sim sim(model);
 //     while (sim.time() < 40.0) sim.step(1e-3);
@@ -238,21 +238,98 @@ private:
 };
 #endif
 
-// ---- Model ----------------------------------------------------------------------------------------------------------
-// A description of a rig, its string and its hole, and the scene that it is compiled to.
-class model {
+// ---- Owners ---------------------------------------------------------------------------------------------------------
+// Owns an object of the library. It is moved, not copied.
+template <typename T, void (*destroy)(T **)>
+class owner {
 public:
-    // An owner of nothing.
-    explicit model(std::nullptr_t) noexcept : handle_(nullptr) {}
-    model(model &&other) noexcept : handle_(other.release()) {}
-    model &operator=(model &&other) noexcept
+    owner(owner &&other) noexcept : handle_(other.release()) {}
+    owner &operator=(owner &&other) noexcept
     {
         if (this != &other) reset(other.release());
         return *this;
     }
-    model(const model &) = delete;
-    model &operator=(const model &) = delete;
-    ~model() { dmb_model_destroy(&handle_); }
+    owner(const owner &) = delete;
+    owner &operator=(const owner &) = delete;
+
+    // The handle for C functions, or NULL; it stays the owner's.
+    DRILLMBD_NODISCARD T *get() const noexcept { return handle_; }
+    // True if it owns an object.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    DRILLMBD_NODISCARD T *release() noexcept
+    {
+        T *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Destroys the object and takes over a handle, or nothing.
+    void reset(T *handle = nullptr) noexcept
+    {
+        destroy(&handle_);
+        handle_ = handle;
+    }
+
+protected:
+    explicit owner(T *handle = nullptr) noexcept : handle_(handle) {}
+    ~owner() { destroy(&handle_); }
+    T *handle_;
+};
+
+// ---- Ids ------------------------------------------------------------------------------------------------------------
+// The id of a part of one kind. A part of another kind in its place does not compile; fields of definitions and C
+// functions take it as a dmb_id. A dmb_id becomes one by name, drive_id(id), which the library checks at its use.
+template <std::int32_t Kind>
+class part_id {
+public:
+    enum : std::int32_t { kind = Kind }; // DMB_PART_...
+    // The id that names nothing.
+    part_id() noexcept : id_{0, 0} {}
+    // Of an id from C.
+    explicit part_id(dmb_id id) noexcept : id_(id) {}
+    // For fields of definitions and C functions.
+    operator dmb_id() const noexcept { return id_; }
+    // True if it names a part.
+    explicit operator bool() const noexcept { return id_.generation != 0; }
+
+private:
+    dmb_id id_;
+};
+// True if both name the same part of the same model, or nothing.
+template <std::int32_t Kind>
+DRILLMBD_NODISCARD bool operator==(part_id<Kind> a, part_id<Kind> b) noexcept
+{
+    return dmb_id_equal(a, b) != 0;
+}
+// The opposite of ==.
+template <std::int32_t Kind>
+DRILLMBD_NODISCARD bool operator!=(part_id<Kind> a, part_id<Kind> b) noexcept
+{
+    return !(a == b);
+}
+using time_function_id = part_id<DMB_PART_TIME_FUNCTION>;
+using wall_id = part_id<DMB_PART_WALL>;
+using string_id = part_id<DMB_PART_STRING>;
+using body_id = part_id<DMB_PART_BODY>;
+using bit_id = part_id<DMB_PART_BIT>;
+using drive_id = part_id<DMB_PART_DRIVE>;
+using load_id = part_id<DMB_PART_LOAD>;
+using joint_id = part_id<DMB_PART_JOINT>;
+using coupling_id = part_id<DMB_PART_COUPLING>;
+using constraint_id = part_id<DMB_PART_CONSTRAINT>;
+using spring_id = part_id<DMB_PART_SPRING>;
+using force_id = part_id<DMB_PART_FORCE>;
+using stabiliser_id = part_id<DMB_PART_STABILISER>;
+using stuck_id = part_id<DMB_PART_STUCK>;
+using input_id = part_id<DMB_PART_INPUT>;
+using event_id = part_id<DMB_PART_EVENT>;
+
+// ---- Model ----------------------------------------------------------------------------------------------------------
+// A description of a rig, its string and its hole, and the scene that it is compiled to.
+class model : public owner<dmb_model, dmb_model_destroy> {
+public:
+    // An owner of nothing.
+    explicit model(std::nullptr_t) noexcept {}
 
     // Makes a model in out; a previous one is destroyed. Returns the status.
     DRILLMBD_NODISCARD static std::int32_t create(model &out, const dmb_model_options *options = nullptr) noexcept
@@ -263,21 +340,16 @@ public:
         return status;
     }
 
-    DRILLMBD_NODISCARD dmb_model *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_model *release() noexcept
+    // Makes the model of a scene record in out; a previous one is destroyed. Returns the status.
+    DRILLMBD_NODISCARD static std::int32_t try_read(model &out, span<const unsigned char> record,
+                                                    const dmb_model_options *options = nullptr) noexcept
     {
-        dmb_model *given = handle_;
-        handle_ = nullptr;
-        return given;
+        dmb_model *made = nullptr;
+        const std::int32_t status = dmb_model_read(record.data(), record.size(), options, &made);
+        if (status >= 0) out.reset(made);
+        return status;
     }
-    // Takes over a handle, or nothing.
-    void reset(dmb_model *handle = nullptr) noexcept
-    {
-        dmb_model_destroy(&handle_);
-        handle_ = handle;
-    }
+
     // Of the last call on this model that failed; of a sim::create of it in this thread too.
     DRILLMBD_NODISCARD const char *message() const noexcept { return dmb_model_message(handle_); }
     // Continues without the parts that were refused: compile fails otherwise.
@@ -288,76 +360,103 @@ public:
     }
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    model() : handle_(nullptr) { check(dmb_model_create(nullptr, &handle_)); }
-    explicit model(const dmb_model_options &options) : handle_(nullptr) { check(dmb_model_create(&options, &handle_)); }
+    model() { check(dmb_model_create(nullptr, &handle_)); }
+    explicit model(const dmb_model_options &options) { check(dmb_model_create(&options, &handle_)); }
 
     void set_environment(const dmb_environment_def &def) { described(dmb_model_set_environment(handle_, &def)); }
-    dmb_id add_time_function(const dmb_segment *terms, std::uint32_t count)
+    time_function_id add_time_function(const dmb_segment *terms, std::uint32_t count)
     {
         dmb_id id = {0, 0};
         described(dmb_model_add_time_function(handle_, terms, count, &id));
-        return id;
+        return time_function_id(id);
     }
-    /* from before start, to after end, smooth between. */
-    dmb_id add_ramp(double from, double to, double start, double end)
+    // `from` before start, `to` after end, smooth between.
+    time_function_id add_ramp(double from, double to, double start, double end)
     {
         dmb_id id = {0, 0};
         described(dmb_model_add_ramp(handle_, from, to, start, end, &id));
-        return id;
+        return time_function_id(id);
     }
-    dmb_id add_time_function(const dmb_segment &term) { return add_time_function(&term, 1); }
-    dmb_id add_time_function(std::initializer_list<dmb_segment> terms)
+    time_function_id add_time_function(const dmb_segment &term) { return add_time_function(&term, 1); }
+    time_function_id add_time_function(std::initializer_list<dmb_segment> terms)
     {
         return add_time_function(terms.begin(), static_cast<std::uint32_t>(terms.size()));
     }
-    dmb_id add_pipes(const dmb_pipe_def &def, std::uint32_t count)
+    string_id add_pipes(const dmb_pipe_def &def, std::uint32_t count)
     {
         dmb_id id = {0, 0};
         described(dmb_model_add_pipes(handle_, &def, count, &id));
-        return id;
+        return string_id(id);
     }
-    dmb_id add_wall(const dmb_wall_def &def) { return add(dmb_model_add_wall, def); }
+    wall_id add_wall(const dmb_wall_def &def) { return add<wall_id>(dmb_model_add_wall, def); }
     void add_hole_sections(const dmb_hole_section *sections, std::uint32_t count)
     {
         described(dmb_model_add_hole_sections(handle_, sections, count));
     }
-    dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
-    dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
-    dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }
-    dmb_id add_stabiliser(const dmb_stabiliser_def &def) { return add(dmb_model_add_stabiliser, def); }
-    dmb_id add_joint(const dmb_joint_def &def) { return add(dmb_model_add_joint, def); }
-    dmb_id add_coupling(const dmb_coupling_def &def) { return add(dmb_model_add_coupling, def); }
-    dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }
-    dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
-    dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
-    dmb_id add_event(const dmb_event_def &def) { return add(dmb_model_add_event, def); }
-    dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
-    dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
-    dmb_id add_force(const dmb_force_def &def) { return add(dmb_model_add_force, def); }
+    string_id add_string(const dmb_string_def &def) { return add<string_id>(dmb_model_add_string, def); }
+    body_id add_body(const dmb_body_def &def) { return add<body_id>(dmb_model_add_body, def); }
+    bit_id add_bit(const dmb_bit_def &def) { return add<bit_id>(dmb_model_add_bit, def); }
+    stabiliser_id add_stabiliser(const dmb_stabiliser_def &def)
+    {
+        return add<stabiliser_id>(dmb_model_add_stabiliser, def);
+    }
+    joint_id add_joint(const dmb_joint_def &def) { return add<joint_id>(dmb_model_add_joint, def); }
+    coupling_id add_coupling(const dmb_coupling_def &def) { return add<coupling_id>(dmb_model_add_coupling, def); }
+    constraint_id add_constraint(const dmb_constraint_def &def)
+    {
+        return add<constraint_id>(dmb_model_add_constraint, def);
+    }
+    drive_id add_drive(const dmb_drive_def &def) { return add<drive_id>(dmb_model_add_drive, def); }
+    load_id add_load(const dmb_load_def &def) { return add<load_id>(dmb_model_add_load, def); }
+    event_id add_event(const dmb_event_def &def) { return add<event_id>(dmb_model_add_event, def); }
+    input_id add_input(const dmb_input_def &def) { return add<input_id>(dmb_model_add_input, def); }
+    spring_id add_spring(const dmb_spring_def &def) { return add<spring_id>(dmb_model_add_spring, def); }
+    force_id add_force(const dmb_force_def &def) { return add<force_id>(dmb_model_add_force, def); }
     double set_motor(const dmb_motor &motor, dmb_drive_def &drive)
     {
         double speed = 0.0;
         done(dmb_motor_drive(&motor, &drive, &speed));
         return speed;
     }
-    dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
+    stuck_id add_stuck(const dmb_stuck_def &def) { return add<stuck_id>(dmb_model_add_stuck, def); }
+    // Parts of a sub.
+    struct sub_parts {
+        body_id body;      // the sub itself
+        string_id section; // the string to add the next pipes to
+        joint_id before;   // joins the string to the body
+        joint_id after;    // joins the body to the section
+        dmb_place end;     // of the string, that `before` joins to the body
+    };
     // A body behind the pipes of a string so far, and a section behind the body.
-    dmb_sub add_sub(const dmb_sub_def &def)
+    sub_parts add_sub(const dmb_sub_def &def)
     {
         dmb_sub made = dmb_sub_default();
         described(dmb_model_add_sub(handle_, &def, &made));
-        return made;
+        return {body_id(made.body), string_id(made.section), joint_id(made.before), joint_id(made.after), made.end};
     }
-    void place_at_end(dmb_id string, double length, dmb_body_def *body, dmb_string_def *section = nullptr)
+    void place_at_end(string_id string, double length, dmb_body_def *body, dmb_string_def *section = nullptr)
     {
         described(dmb_model_place_at_end(handle_, string, length, body, section));
     }
     void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
-    // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.
+    // The part of that name, as in model.find<drive_id>("table"); throws where there is none.
+    template <typename Id>
+    DRILLMBD_NODISCARD Id find(const char *name) const
+    {
+        return Id(find(name, Id::kind));
+    }
+    // The same of a kind that is known later; without one it also throws where parts of several kinds have the name.
     DRILLMBD_NODISCARD dmb_id find(const char *name, std::int32_t kind = DMB_PART_ANY) const
     {
         dmb_id id = {0, 0};
-        check(dmb_model_find(handle_, kind, name, &id)); // leaves no message
+        check(dmb_model_find(handle_, kind, name, &id));
+        return id;
+    }
+    // The part whose id has that index, as another model of the same description gave it out.
+    DRILLMBD_NODISCARD dmb_id part(std::uint32_t index) const
+    {
+        dmb_id id = {0, 0};
+        check(dmb_model_part(handle_, index, &id));
         return id;
     }
     DRILLMBD_NODISCARD std::string name(dmb_id part) const
@@ -368,26 +467,45 @@ public:
     }
     // The pipes added under that name.
     struct pipe_range {
-        dmb_id string;       // the string that has them
+        string_id string;    // that has them
         std::uint32_t first; // number of the first, from the rig end on
         std::uint32_t count; // [-] of them
     };
     DRILLMBD_NODISCARD pipe_range find_pipes(const char *name) const
     {
-        pipe_range found = {{0, 0}, 0, 0};
-        check(dmb_model_find_pipes(handle_, name, &found.string, &found.first, &found.count));
+        dmb_id string = {0, 0};
+        pipe_range found = {string_id(), 0, 0};
+        check(dmb_model_find_pipes(handle_, name, &string, &found.first, &found.count));
+        found.string = string_id(string);
         return found;
     }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
+    // The scene record: the description as bytes that are the same on all machines.
+    DRILLMBD_NODISCARD std::vector<unsigned char> write() const
+    {
+        std::size_t size = 0;
+        check(dmb_model_write(handle_, nullptr, 0, &size));
+        std::vector<unsigned char> record(size);
+        check(dmb_model_write(handle_, record.data(), size, &size));
+        return record;
+    }
+    // The model of a scene record, open for changes before compile; find gives its parts by their names.
+    DRILLMBD_NODISCARD static model read(span<const unsigned char> record, const dmb_model_options *options = nullptr)
+    {
+        model made(nullptr);
+        check(try_read(made, record, options));
+        return made;
+    }
+
     DRILLMBD_NODISCARD dmb_model_info info() const
     {
         dmb_model_info answer = dmb_model_info_default();
-        check(dmb_model_get_info(handle_, &answer)); // leaves no message
+        check(dmb_model_get_info(handle_, &answer));
         return answer;
     }
     // Estimated discretisation error by pipe of a string that has `pipes` pipes at most.
-    DRILLMBD_NODISCARD std::vector<double> mesh_errors(dmb_id string, std::uint32_t pipes) const
+    DRILLMBD_NODISCARD std::vector<double> mesh_errors(string_id string, std::uint32_t pipes) const
     {
         std::vector<double> errors(pipes);
         check(dmb_analysis_mesh(handle_, string, errors.data(), pipes));
@@ -420,49 +538,22 @@ private:
         clear_refused();
         throw thrown;
     }
-    template <typename Def>
-    dmb_id add(std::int32_t (*function)(dmb_model *, const Def *, dmb_id *), const Def &def)
+    template <typename Id, typename Def>
+    Id add(std::int32_t (*function)(dmb_model *, const Def *, dmb_id *), const Def &def)
     {
         dmb_id id = {0, 0};
         described(function(handle_, &def, &id));
-        return id;
+        return Id(id);
     }
 #endif
-
-private:
-    dmb_model *handle_;
 };
 
 // ---- Buckling -------------------------------------------------------------------------------------------------------
 // Result of sim::buckling.
-class buckling {
+class buckling : public owner<dmb_buckling, dmb_buckling_destroy> {
 public:
-    explicit buckling(dmb_buckling *handle = nullptr) noexcept : handle_(handle) {}
-    buckling(buckling &&other) noexcept : handle_(other.release()) {}
-    buckling &operator=(buckling &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    buckling(const buckling &) = delete;
-    buckling &operator=(const buckling &) = delete;
-    ~buckling() { dmb_buckling_destroy(&handle_); }
+    explicit buckling(dmb_buckling *handle = nullptr) noexcept : owner(handle) {}
 
-    DRILLMBD_NODISCARD dmb_buckling *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_buckling *release() noexcept
-    {
-        dmb_buckling *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_buckling *handle = nullptr) noexcept
-    {
-        dmb_buckling_destroy(&handle_);
-        handle_ = handle;
-    }
     DRILLMBD_NODISCARD std::uint32_t size() const noexcept { return dmb_buckling_count(handle_); }
 
 #if defined(DRILLMBD_EXCEPTIONS)
@@ -486,14 +577,11 @@ public:
         return answer;
     }
 #endif
-
-private:
-    dmb_buckling *handle_;
 };
 
 // ---- Modes ----------------------------------------------------------------------------------------------------------
 // Result of sim::modes.
-class modes {
+class modes : public owner<dmb_modes, dmb_modes_destroy> {
 public:
     // Of a part in one mode.
     struct energies {
@@ -501,32 +589,7 @@ public:
         double strain;  // [J]
     };
 
-    explicit modes(dmb_modes *handle = nullptr) noexcept : handle_(handle) {}
-    modes(modes &&other) noexcept : handle_(other.release()) {}
-    modes &operator=(modes &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    modes(const modes &) = delete;
-    modes &operator=(const modes &) = delete;
-    ~modes() { dmb_modes_destroy(&handle_); }
-
-    DRILLMBD_NODISCARD dmb_modes *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_modes *release() noexcept
-    {
-        dmb_modes *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_modes *handle = nullptr) noexcept
-    {
-        dmb_modes_destroy(&handle_);
-        handle_ = handle;
-    }
+    explicit modes(dmb_modes *handle = nullptr) noexcept : owner(handle) {}
 
 #if defined(DRILLMBD_EXCEPTIONS)
     DRILLMBD_NODISCARD dmb_modes_info info() const
@@ -562,43 +625,16 @@ public:
         check(dmb_write_vtk_mode(handle_, index, scale, phase, per_element, path));
     }
 #endif
-
-private:
-    dmb_modes *handle_;
 };
 
 // Fatigue of places during a run.
-class fatigue {
+class fatigue : public owner<dmb_fatigue, dmb_fatigue_destroy> {
 public:
-    explicit fatigue(dmb_fatigue *handle = nullptr) noexcept : handle_(handle) {}
-    fatigue(fatigue &&other) noexcept : handle_(other.release()) {}
-    fatigue &operator=(fatigue &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    fatigue(const fatigue &) = delete;
-    fatigue &operator=(const fatigue &) = delete;
-    ~fatigue() { dmb_fatigue_destroy(&handle_); }
-
-    DRILLMBD_NODISCARD dmb_fatigue *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_fatigue *release() noexcept
-    {
-        dmb_fatigue *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_fatigue *handle = nullptr) noexcept
-    {
-        dmb_fatigue_destroy(&handle_);
-        handle_ = handle;
-    }
+    explicit fatigue(dmb_fatigue *handle = nullptr) noexcept : owner(handle) {}
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    void take(const dmb_sim *sim) { check(dmb_fatigue_take(handle_, sim)); }
+    // A sample of a sim as it is now.
+    void take(const owner<dmb_sim, dmb_sim_destroy> &at) { check(dmb_fatigue_take(handle_, at.get())); }
     DRILLMBD_NODISCARD dmb_fatigue_result result(std::uint32_t place = 0) const
     {
         dmb_fatigue_result answer = dmb_fatigue_result_default();
@@ -606,43 +642,16 @@ public:
         return answer;
     }
 #endif
-
-private:
-    dmb_fatigue *handle_;
 };
 
 // A window over outputs.
-class window {
+class window : public owner<dmb_window, dmb_window_destroy> {
 public:
-    explicit window(dmb_window *handle = nullptr) noexcept : handle_(handle) {}
-    window(window &&other) noexcept : handle_(other.release()) {}
-    window &operator=(window &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    window(const window &) = delete;
-    window &operator=(const window &) = delete;
-    ~window() { dmb_window_destroy(&handle_); }
-
-    DRILLMBD_NODISCARD dmb_window *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_window *release() noexcept
-    {
-        dmb_window *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_window *handle = nullptr) noexcept
-    {
-        dmb_window_destroy(&handle_);
-        handle_ = handle;
-    }
+    explicit window(dmb_window *handle = nullptr) noexcept : owner(handle) {}
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    void take(const dmb_sim *sim) { check(dmb_window_take(handle_, sim)); }
+    // A sample of a sim as it is now.
+    void take(const owner<dmb_sim, dmb_sim_destroy> &at) { check(dmb_window_take(handle_, at.get())); }
     void reset_samples() { check(dmb_window_reset(handle_)); }
     DRILLMBD_NODISCARD dmb_window_result result(std::uint32_t output = 0) const
     {
@@ -651,40 +660,12 @@ public:
         return answer;
     }
 #endif
-
-private:
-    dmb_window *handle_;
 };
 
 // The linearised scene as matrices.
-class state_space {
+class state_space : public owner<dmb_state_space, dmb_state_space_destroy> {
 public:
-    explicit state_space(dmb_state_space *handle = nullptr) noexcept : handle_(handle) {}
-    state_space(state_space &&other) noexcept : handle_(other.release()) {}
-    state_space &operator=(state_space &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    state_space(const state_space &) = delete;
-    state_space &operator=(const state_space &) = delete;
-    ~state_space() { dmb_state_space_destroy(&handle_); }
-
-    DRILLMBD_NODISCARD dmb_state_space *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_state_space *release() noexcept
-    {
-        dmb_state_space *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_state_space *handle = nullptr) noexcept
-    {
-        dmb_state_space_destroy(&handle_);
-        handle_ = handle;
-    }
+    explicit state_space(dmb_state_space *handle = nullptr) noexcept : owner(handle) {}
 
 #if defined(DRILLMBD_EXCEPTIONS)
     // Entries of a sparse matrix.
@@ -699,64 +680,44 @@ public:
         check(dmb_state_space_get_info(handle_, &answer));
         return answer;
     }
-    // DMB_MATRIX_A .. _D, row by row.
-    DRILLMBD_NODISCARD std::vector<double> dense(std::int32_t matrix) const
+    // A dense matrix, row by row.
+    struct matrix {
+        std::size_t rows;           // [-]
+        std::size_t columns;        // [-]
+        std::vector<double> values; // shape (rows, columns)
+        // The entry of a row and a column, which are not checked.
+        double operator()(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
+    };
+    // DMB_MATRIX_A .. _D: A has shape (states, states), B (states, inputs), C (outputs, states), D (outputs, inputs).
+    DRILLMBD_NODISCARD matrix dense(std::int32_t which) const
     {
         const dmb_state_space_info of = info();
-        const std::size_t rows = matrix < DMB_MATRIX_C ? of.states : of.outputs;
-        const std::size_t columns = matrix % 2 == 0 ? of.states : of.inputs;
-        std::vector<double> answer(rows * columns + 1);
-        check(dmb_state_space_dense(handle_, matrix, answer.data()));
-        answer.pop_back();
+        matrix answer{which < DMB_MATRIX_C ? of.states : of.outputs, which % 2 == 0 ? of.states : of.inputs, {}};
+        answer.values.resize(answer.rows * answer.columns + 1); // data() is no null pointer where a side is 0
+        check(dmb_state_space_dense(handle_, which, answer.values.data()));
+        answer.values.pop_back();
         return answer;
     }
     // DMB_MATRIX_MASS .. _COORDINATES.
-    DRILLMBD_NODISCARD triplets sparse(std::int32_t matrix) const
+    DRILLMBD_NODISCARD triplets sparse(std::int32_t which) const
     {
         std::uint64_t count = 0;
-        check(dmb_state_space_sparse(handle_, matrix, nullptr, nullptr, nullptr, &count));
+        check(dmb_state_space_sparse(handle_, which, nullptr, nullptr, nullptr, &count));
         triplets answer{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count),
                         std::vector<double>(count)};
         if (count > 0)
-            check(dmb_state_space_sparse(handle_, matrix, answer.rows.data(), answer.columns.data(),
+            check(dmb_state_space_sparse(handle_, which, answer.rows.data(), answer.columns.data(),
                                          answer.values.data(), &count));
         return answer;
     }
 #endif
-
-private:
-    dmb_state_space *handle_;
 };
 
 // Derivatives of a sim by parameters, along a run. The sim must outlive it and is moved by its step and advance.
-class sensitivity {
+class sensitivity : public owner<dmb_sensitivity, dmb_sensitivity_destroy> {
 public:
-    explicit sensitivity(dmb_sensitivity *handle = nullptr) noexcept : handle_(handle) {}
-    sensitivity(sensitivity &&other) noexcept : handle_(other.release()) {}
-    sensitivity &operator=(sensitivity &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    sensitivity(const sensitivity &) = delete;
-    sensitivity &operator=(const sensitivity &) = delete;
-    ~sensitivity() { dmb_sensitivity_destroy(&handle_); }
+    explicit sensitivity(dmb_sensitivity *handle = nullptr) noexcept : owner(handle) {}
 
-    DRILLMBD_NODISCARD dmb_sensitivity *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_sensitivity *release() noexcept
-    {
-        dmb_sensitivity *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_sensitivity *handle = nullptr) noexcept
-    {
-        dmb_sensitivity_destroy(&handle_);
-        handle_ = handle;
-    }
 #if defined(DRILLMBD_EXCEPTIONS)
     // Steps so far in which the parameter was not smooth.
     DRILLMBD_NODISCARD std::uint64_t kinks(std::uint32_t parameter = 0) const
@@ -775,40 +736,12 @@ public:
         check(dmb_sensitivity_outputs(handle_, asked.data(), asked.count(), values.data(), derivatives.data()));
     }
 #endif
-
-private:
-    dmb_sensitivity *handle_;
 };
 
 // Result of sim::response.
-class response {
+class response : public owner<dmb_response, dmb_response_destroy> {
 public:
-    explicit response(dmb_response *handle = nullptr) noexcept : handle_(handle) {}
-    response(response &&other) noexcept : handle_(other.release()) {}
-    response &operator=(response &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    response(const response &) = delete;
-    response &operator=(const response &) = delete;
-    ~response() { dmb_response_destroy(&handle_); }
-
-    DRILLMBD_NODISCARD dmb_response *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    // The handle, now the caller's to destroy.
-    DRILLMBD_NODISCARD dmb_response *release() noexcept
-    {
-        dmb_response *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    // Takes over a handle, or nothing.
-    void reset(dmb_response *handle = nullptr) noexcept
-    {
-        dmb_response_destroy(&handle_);
-        handle_ = handle;
-    }
+    explicit response(dmb_response *handle = nullptr) noexcept : owner(handle) {}
 
 #if defined(DRILLMBD_EXCEPTIONS)
     // Number of frequencies.
@@ -834,9 +767,6 @@ public:
     }
     void write_csv(const char *path) const { check(dmb_response_write_csv(handle_, path)); }
 #endif
-
-private:
-    dmb_response *handle_;
 };
 
 #if defined(DRILLMBD_EXCEPTIONS)
@@ -859,19 +789,10 @@ struct speed_bands {
 
 // ---- Sim ------------------------------------------------------------------------------------------------------------
 // A simulation of a compiled model, which has to outlive it.
-class sim {
+class sim : public owner<dmb_sim, dmb_sim_destroy> {
 public:
     // An owner of nothing.
-    explicit sim(std::nullptr_t) noexcept : handle_(nullptr) {}
-    sim(sim &&other) noexcept : handle_(other.release()) {}
-    sim &operator=(sim &&other) noexcept
-    {
-        if (this != &other) reset(other.release());
-        return *this;
-    }
-    sim(const sim &) = delete;
-    sim &operator=(const sim &) = delete;
-    ~sim() { dmb_sim_destroy(&handle_); }
+    explicit sim(std::nullptr_t) noexcept {}
 
     // Makes a sim in out; a previous one is destroyed. Returns the status, which may be a note.
     DRILLMBD_NODISCARD static std::int32_t create(sim &out, const model &of,
@@ -892,19 +813,6 @@ public:
         return status;
     }
 
-    DRILLMBD_NODISCARD dmb_sim *get() const noexcept { return handle_; }
-    explicit operator bool() const noexcept { return handle_ != nullptr; }
-    DRILLMBD_NODISCARD dmb_sim *release() noexcept
-    {
-        dmb_sim *given = handle_;
-        handle_ = nullptr;
-        return given;
-    }
-    void reset(dmb_sim *handle = nullptr) noexcept
-    {
-        dmb_sim_destroy(&handle_);
-        handle_ = handle;
-    }
     DRILLMBD_NODISCARD const char *message() const noexcept { return dmb_sim_message(handle_); }
     DRILLMBD_NODISCARD double time() const noexcept { return dmb_sim_time(handle_); } // [s]; NaN without a sim
 
@@ -926,19 +834,20 @@ public:
     {
         return dmb_sim_advance_to_event(handle_, to, event, report);
     }
-    DRILLMBD_NODISCARD std::int32_t try_set_drive(dmb_id drive, double value) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_drive(drive_id drive, double value) noexcept
     {
         return dmb_sim_set_drive(handle_, drive, value);
     }
-    DRILLMBD_NODISCARD std::int32_t try_set_input(dmb_id input, double value) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_input(input_id input, double value) noexcept
     {
         return dmb_sim_set_input(handle_, input, value);
     }
     // As many values as inputs, else DMB_ERR_VALUE.
-    DRILLMBD_NODISCARD std::int32_t try_set_inputs(span<const dmb_id> inputs, span<const double> values) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_inputs(span<const input_id> inputs, span<const double> values) noexcept
     {
         if (inputs.size() != values.size()) return DMB_ERR_VALUE;
-        return dmb_sim_set_inputs(handle_, inputs.data(), values.data(), inputs.count());
+        return dmb_sim_set_inputs(handle_, reinterpret_cast<const dmb_id *>(inputs.data()), values.data(),
+                                  inputs.count());
     }
     // The records live as long as the sim, or until other ones are given.
     DRILLMBD_NODISCARD std::int32_t try_record_inputs(span<dmb_input_record> records) noexcept
@@ -950,7 +859,7 @@ public:
     {
         return dmb_sim_replay_inputs(handle_, records.data(), records.count(), &next);
     }
-    DRILLMBD_NODISCARD std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_joint(joint_id joint, std::int32_t state) noexcept
     {
         return dmb_sim_set_joint(handle_, joint, state);
     }
@@ -974,13 +883,10 @@ public:
     }
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    explicit sim(const model &of) : handle_(nullptr) { begun(of, dmb_sim_create(of.get(), nullptr, &handle_)); }
-    sim(const model &of, const dmb_sim_options &options) : handle_(nullptr)
-    {
-        begun(of, dmb_sim_create(of.get(), &options, &handle_));
-    }
+    explicit sim(const model &of) { begun(of, dmb_sim_create(of.get(), nullptr, &handle_)); }
+    sim(const model &of, const dmb_sim_options &options) { begun(of, dmb_sim_create(of.get(), &options, &handle_)); }
     // In the caller's block, which has to outlive the sim.
-    sim(const model &of, const dmb_sim_options &options, void *block, std::size_t size) : handle_(nullptr)
+    sim(const model &of, const dmb_sim_options &options, void *block, std::size_t size)
     {
         begun(of, dmb_sim_create_in(of.get(), &options, block, size, &handle_));
     }
@@ -1015,18 +921,17 @@ public:
         done(try_advance_to_event(to, &event, report));
         return event;
     }
-    void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
+    void set_drive(drive_id which, double value) { done(try_set_drive(which, value)); }
     // The status may be the note that a bound was taken instead (drillmbd/scene.h).
-    std::int32_t set_input(dmb_id which, double value) { return done(try_set_input(which, value)); }
-    DRILLMBD_NODISCARD dmb_input_state input(dmb_id which) const
+    std::int32_t set_input(input_id which, double value) { return done(try_set_input(which, value)); }
+    DRILLMBD_NODISCARD dmb_input_state input(input_id which) const
     {
         dmb_input_state state = dmb_input_state_default();
-        const std::int32_t status = dmb_sim_get_input(handle_, which, &state);
-        if (status < 0) throw error(status, dmb_status_text(status));
+        check(dmb_sim_get_input(handle_, which, &state));
         return state;
     }
     // The status may be the note that speeds were projected.
-    std::int32_t set_joint(dmb_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
+    std::int32_t set_joint(joint_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
     // Continues from the state of `from`, a sim of another model: pipes may have come or gone at the rig end.
     std::int32_t transfer_state(const sim &from) { return done(try_transfer_state(from)); }
     dmb_static_report static_start(const dmb_static_options *options = nullptr)
@@ -1049,7 +954,7 @@ public:
         done(dmb_analysis_path(handle_, options, &report));
         return report;
     }
-    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, is there and may be queried until
+    // The same with visit(at, point) at each point: `at`, a const sim &, is there and may be queried until
     // visit returns; true ends the path. An exception of visit ends it too and comes out of here.
     template <typename Visit>
     dmb_path_report path(const dmb_path_options &options, Visit visit)
@@ -1183,7 +1088,6 @@ public:
         return found;
     }
 
-    // Queries leave no message: the status is all.
     DRILLMBD_NODISCARD dmb_pose pose(const dmb_place &place) const
     {
         return ask(dmb_query_pose, dmb_pose_default(), place);
@@ -1200,7 +1104,7 @@ public:
     }
     // Quantities DMB_PROFILE_... at distances [m] along a string ({}: its first), station by station in one vector.
     DRILLMBD_NODISCARD std::vector<double> profile(span<const std::int32_t> quantities, span<const double> distance,
-                                                   dmb_id string = dmb_id{}) const
+                                                   string_id string = string_id()) const
     {
         std::vector<double> values(quantities.size() * distance.size());
         dmb_profile request = dmb_profile_default();
@@ -1235,7 +1139,7 @@ public:
     }
     DRILLMBD_NODISCARD dmb_energy energy() const { return ask(dmb_query_energy, dmb_energy_default()); }
     DRILLMBD_NODISCARD dmb_momentum momentum() const { return ask(dmb_query_momentum, dmb_momentum_default()); }
-    DRILLMBD_NODISCARD dmb_drive_state drive(dmb_id which) const
+    DRILLMBD_NODISCARD dmb_drive_state drive(drive_id which) const
     {
         return ask(dmb_query_drive, dmb_drive_state_default(), which);
     }
@@ -1245,18 +1149,18 @@ public:
         check(dmb_query_reaction(handle_, part, answer.data()));
         return answer;
     }
-    DRILLMBD_NODISCARD dmb_joint_state joint(dmb_id which, std::int32_t frame = DMB_FRAME_WORLD) const
+    DRILLMBD_NODISCARD dmb_joint_state joint(joint_id which, std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_joint_state answer = dmb_joint_state_default();
         answer.frame = frame;
         return ask(dmb_query_joint, answer, which);
     }
     DRILLMBD_NODISCARD dmb_flow_state flow() const { return ask(dmb_query_flow, dmb_flow_state_default()); }
-    DRILLMBD_NODISCARD dmb_stuck_state stuck(dmb_id which) const
+    DRILLMBD_NODISCARD dmb_stuck_state stuck(stuck_id which) const
     {
         return ask(dmb_query_stuck, dmb_stuck_state_default(), which);
     }
-    DRILLMBD_NODISCARD dmb_spring_state spring(dmb_id which) const
+    DRILLMBD_NODISCARD dmb_spring_state spring(spring_id which) const
     {
         return ask(dmb_query_spring, dmb_spring_state_default(), which);
     }
@@ -1284,7 +1188,7 @@ public:
         answer.resize(count);
         return answer;
     }
-    DRILLMBD_NODISCARD dmb_bit_state bit(dmb_id which) const
+    DRILLMBD_NODISCARD dmb_bit_state bit(bit_id which) const
     {
         return ask(dmb_query_bit, dmb_bit_state_default(), which);
     }
@@ -1351,12 +1255,16 @@ private:
         static std::int32_t call(void *context, const dmb_sim *at, const dmb_path_point *point) noexcept
         {
             visitor *self = static_cast<visitor *>(context);
+            sim seen(nullptr);
+            seen.handle_ = const_cast<dmb_sim *>(at); // visit sees it as const
+            std::int32_t ends = 1;
             try {
-                return self->visit(at, *point) ? 1 : 0;
+                ends = self->visit(static_cast<const sim &>(seen), *point) ? 1 : 0;
             } catch (...) {
                 self->thrown = std::current_exception();
-                return 1;
             }
+            seen.handle_ = nullptr;
+            return ends;
         }
         Visit &visit;
         std::exception_ptr thrown;
@@ -1371,12 +1279,10 @@ private:
         return answer;
     }
 #endif
-
-private:
-    dmb_sim *handle_;
 };
 
 static_assert(sizeof(model) == sizeof(dmb_model *) && sizeof(sim) == sizeof(dmb_sim *), "owners are one pointer wide");
+static_assert(sizeof(part_id<0>) == sizeof(dmb_id), "an array of ids of one kind is an array of dmb_id");
 
 } // namespace drillmbd
 

@@ -54,7 +54,9 @@ dmb_allocator counting(counter &count)
 
 // ---- A scene --------------------------------------------------------------------------------------------------------
 struct parts {
-    dmb_id string, bit, feed, turning;
+    drillmbd::string_id string;
+    drillmbd::bit_id bit;
+    drillmbd::drive_id feed, turning;
 };
 
 dmb_segment step_segment(double end, double value)
@@ -75,6 +77,7 @@ parts describe(drillmbd::model &model)
     made.string = model.add_pipes(dmb_pipe_def_default(), 5);
     made.bit = model.add_bit(dmb_bit_def_default());
     drive.time_function = model.add_time_function({step_segment(0.01, 0.04), step_segment(0.02, 0.01)});
+    std::strcpy(drive.name, "feed");
     made.feed = model.add_drive(drive);
     drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_LOAD;
@@ -104,10 +107,10 @@ void scene_from_end_to_end()
     curve.curve_stress = 1e8;
     curve.slope = 3.0;
     drillmbd::fatigue fatigue = sim.fatigue(curve, {dmb_station(made.string, 2, 0.5)});
-    fatigue.take(sim.get());
+    fatigue.take(sim);
     EXPECT(fatigue.result().samples == 1);
     drillmbd::window window = sim.window({dmb_output{dmb_place{}, DMB_OUTPUT_BIT_SPEED, 0}});
-    window.take(sim.get());
+    window.take(sim);
     EXPECT(window.result().mean == sim.output(DMB_OUTPUT_BIT_SPEED));
     EXPECT(thrown_by([&] { (void)sim.output(DMB_OUTPUT_JOINT_STATE); }) == DMB_ERR_ID);
     EXPECT(std::isfinite(sim.torque_drag({dmb_operation_default()}).at(0).hook_load));
@@ -142,6 +145,26 @@ void snapshots()
     EXPECT(thrown_by([&] { sim.restore(std::vector<unsigned char>(10)); }) == DMB_ERR_VALUE);
 }
 
+// A, B, C, D by their shapes; D by an entry that does not lie on a row's start.
+void matrices_have_shapes(drillmbd::sim &sim, const dmb_place &place)
+{
+    dmb_excitation pushes[2] = {dmb_excitation_default(), dmb_excitation_default()};
+    dmb_response_output seen[3] = {dmb_response_output_default(), dmb_response_output_default(),
+                                   dmb_response_output_default()};
+    for (std::int32_t i = 0; i < 3; ++i) {
+        pushes[i % 2].place = seen[i].place = place;
+        pushes[i % 2].component = seen[i].component = i;
+    }
+    const drillmbd::state_space space = sim.state_space(pushes, seen);
+    const std::size_t states = space.info().states;
+    const auto a = space.dense(DMB_MATRIX_A), b = space.dense(DMB_MATRIX_B), c = space.dense(DMB_MATRIX_C),
+               d = space.dense(DMB_MATRIX_D);
+    EXPECT(a.rows == states && a.columns == states && a.values.size() == states * states);
+    EXPECT(b.rows == states && b.columns == 2 && c.rows == 3 && c.columns == states && d.rows == 3 && d.columns == 2);
+    EXPECT(b(1, 1) == b.values[3] && c(2, 0) == c.values[2 * states]);
+    EXPECT(sim.state_space({}, {}).dense(DMB_MATRIX_B).values.empty());
+}
+
 void statics()
 {
     drillmbd::model model;
@@ -155,7 +178,7 @@ void statics()
     drillmbd::sim sim(model);
     EXPECT(sim.static_start().residual < 1e-9);
     drillmbd::state_space space = sim.state_space({}, {});
-    EXPECT(space.dense(DMB_MATRIX_A).size() == static_cast<std::size_t>(space.info().states) * space.info().states);
+    matrices_have_shapes(sim, dmb_station(pipe.string, 3, 0.5));
     EXPECT(!space.sparse(DMB_MATRIX_STIFFNESS).values.empty());
     EXPECT(sim.array(DMB_ARRAY_VELOCITY).size() == space.info().rows);
     EXPECT(sim.contact_total().normal_force > 100.0);
@@ -177,28 +200,28 @@ void joints()
     dmb_coupling_def coupling = dmb_coupling_def_default();
     dmb_constraint_def constraint = dmb_constraint_def_default();
     body.position[0] = 0.5;
-    const dmb_id upper = model.add_body(body);
+    const auto upper = model.add_body(body);
     body.position[0] = 1.5;
-    const dmb_id lower = model.add_body(body);
+    const auto lower = model.add_body(body);
     joint.kind = DMB_JOINT_REVOLUTE;
     joint.match = 1;
     joint.axis_a[0] = 0.0;
     joint.axis_a[1] = 1.0;
     joint.place_b = dmb_station(upper, 0, 0.0);
-    const dmb_id hinge = model.add_joint(joint);
+    const auto hinge = model.add_joint(joint);
     joint.place_a = joint.place_b;
     joint.place_b = dmb_station(lower, 0, 0.0);
     joint.origin_a[0] = 0.5;
-    const dmb_id elbow = model.add_joint(joint);
+    const auto elbow = model.add_joint(joint);
     coupling.joint[0] = elbow;
     coupling.joint[1] = hinge;
-    const dmb_id gear = model.add_coupling(coupling);
+    const auto gear = model.add_coupling(coupling);
     constraint.place_count = 2;
     constraint.place[0] = joint.place_a;
     constraint.place[1] = joint.place_b;
     constraint.row_count = 2;
     constraint.callback = in_plane;
-    const dmb_id plane = model.add_constraint(constraint);
+    const auto plane = model.add_constraint(constraint);
     joint.place_b.part = dmb_id{0, 0};
     EXPECT(thrown_by([&] { model.add_joint(joint); }) == DMB_ERR_ID);
     model.clear_refused();
@@ -217,7 +240,7 @@ void joints()
     EXPECT(sim.set_joint(elbow, DMB_JOINT_OPEN) >= 0);
     EXPECT(sim.multipliers(elbow).empty());
     EXPECT(sim.try_set_joint(hinge, 3) == DMB_ERR_VALUE);
-    EXPECT(thrown_by([&] { sim.set_joint(upper, DMB_JOINT_OPEN); }) == DMB_ERR_ID);
+    EXPECT(thrown_by([&] { sim.set_joint(drillmbd::joint_id(upper), DMB_JOINT_OPEN); }) == DMB_ERR_ID);
 }
 
 // ---- Owners ---------------------------------------------------------------------------------------------------------
@@ -292,7 +315,7 @@ void modes_of_a_string()
     dmb_environment_def none = dmb_environment_def_default();
     none.gravity[2] = 0.0;
     model.set_environment(none);
-    const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 4);
+    const auto string = model.add_pipes(dmb_pipe_def_default(), 4);
     model.compile();
     drillmbd::sim sim(model);
     drillmbd::modes modes = sim.modes();
@@ -331,7 +354,7 @@ void response_of_a_body()
     none.gravity[2] = 0.0;
     def.mass = 2.0;
     model.set_environment(none);
-    const dmb_id body = model.add_body(def);
+    const auto body = model.add_body(def);
     model.compile();
     drillmbd::sim sim(model);
     dmb_excitation force = dmb_excitation_default();
@@ -424,18 +447,19 @@ void paths_are_visited(drillmbd::sim &sim, const dmb_path_options &along, const 
 {
     std::uint32_t visited = 0;
     double pushed = 0.0;
-    const auto look = [&](const dmb_sim *at, const dmb_path_point &point) {
-        dmb_pose pose = dmb_pose_default();
-        EXPECT(dmb_query_pose(at, tip, &pose) == DMB_OK && point.number == visited);
-        pushed = pose.position[0];
+    const auto look = [&](const drillmbd::sim &at, const dmb_path_point &point) {
+        EXPECT(point.number == visited);
+        pushed = at.pose(tip).position[0];
         return ++visited > points;
     };
     EXPECT(sim.path(along, look).points == points && visited == points + 1 && pushed < 10.0);
     visited = points - 2;
-    EXPECT(sim.path(along, [&](const dmb_sim *, const dmb_path_point &) { return ++visited >= points; }).points == 1);
+    EXPECT(sim.path(along, [&](const drillmbd::sim &, const dmb_path_point &) { return ++visited >= points; }).points ==
+           1);
     std::string text;
     try {
-        sim.path(along, [](const dmb_sim *, const dmb_path_point &) -> bool { throw std::logic_error("far enough"); });
+        sim.path(along,
+                 [](const drillmbd::sim &, const dmb_path_point &) -> bool { throw std::logic_error("far enough"); });
     } catch (const std::logic_error &error) {
         text = error.what();
     }
@@ -455,7 +479,7 @@ void buckling_of_a_column()
     for (int i = 0; i < 3; i++) pipe.section_stiffness[i] = 1e12;
     model.set_environment(none);
     pipe.string = model.add_string(clamped);
-    const dmb_id string = model.add_pipes(pipe, 10);
+    const auto string = model.add_pipes(pipe, 10);
     push.place = dmb_station(string, 9, 1.0);
     push.force[0] = -1.0;
     model.add_load(push);
@@ -479,7 +503,7 @@ void buckling_of_a_column()
     paths_are_visited(sim, along, push.place, report.points);
     along.factor_end = 0.0;
     EXPECT(thrown_by([&] { sim.path(&along); }) == DMB_ERR_VALUE);
-    EXPECT(thrown_by([&] { sim.path(along, [](const dmb_sim *, const dmb_path_point &) { return 0; }); }) ==
+    EXPECT(thrown_by([&] { sim.path(along, [](const drillmbd::sim &, const dmb_path_point &) { return 0; }); }) ==
            DMB_ERR_VALUE);
 }
 
@@ -535,7 +559,7 @@ void failures_throw()
     }
     drillmbd::sim sim(model);
     EXPECT(thrown_by([&] { (void)sim.pose(dmb_station(made.string, 9, 0.0)); }) == DMB_ERR_VALUE);
-    EXPECT(thrown_by([&] { (void)sim.drive(made.string); }) == DMB_ERR_ID);
+    EXPECT(thrown_by([&] { (void)sim.drive(drillmbd::drive_id(made.string)); }) == DMB_ERR_ID);
     EXPECT(thrown_by([&] { sim.set_drive(made.feed, 1.0); }) == DMB_ERR_UNSUPPORTED);
     EXPECT(thrown_by([&] { sim.advance(std::nan("")); }) == DMB_ERR_NOT_FINITE);
     try {
@@ -578,13 +602,15 @@ void parts_have_names()
     drillmbd::model model;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     std::strcpy(pipe.name, "collars");
-    const dmb_id string = model.add_pipes(pipe, 3);
+    const auto string = model.add_pipes(pipe, 3);
     model.set_name(string, "main");
-    EXPECT(model.find("main").index == string.index);
-    EXPECT(model.find("main", DMB_PART_STRING).index == string.index);
+    EXPECT(drillmbd::string_id(model.find("main")) == string);
+    EXPECT(model.find<drillmbd::string_id>("main") == string && string);
+    EXPECT(drillmbd::string_id(model.part(dmb_id(string).index)) == string && !drillmbd::drive_id());
     EXPECT(model.name(string) == "main");
     const drillmbd::model::pipe_range found = model.find_pipes("collars");
-    EXPECT(found.string.index == string.index && found.first == 0 && found.count == 3);
+    EXPECT(found.string == string && found.first == 0 && found.count == 3);
+    EXPECT(thrown_by([&] { (void)model.find<drillmbd::drive_id>("main"); }) == DMB_ERR_ID);
     bool thrown = false;
     try {
         (void)model.find("nobody");
@@ -592,6 +618,38 @@ void parts_have_names()
         thrown = error.status() == DMB_ERR_ID;
     }
     EXPECT(thrown);
+}
+
+// A model that is read again has the same record and the same run.
+void records()
+{
+    drillmbd::model model;
+    const parts made = describe(model);
+    const std::vector<unsigned char> record = model.write();
+    drillmbd::model again = drillmbd::model::read(record);
+    EXPECT(again.write() == record);
+    again.compile();
+    drillmbd::sim sim(model), other(again);
+    EXPECT(sim.steps(1e-3, 20) == other.steps(1e-3, 20) && sim.hash() == other.hash());
+    EXPECT(other.drive(again.find<drillmbd::drive_id>("feed")).force == sim.drive(made.feed).force);
+    std::vector<unsigned char> damaged = record;
+    damaged[40] ^= 1;
+    EXPECT(thrown_by([&] { (void)drillmbd::model::read(damaged); }) == DMB_ERR_VALUE);
+    drillmbd::model kept(nullptr);
+    EXPECT(drillmbd::model::try_read(kept, record) == DMB_OK && kept);
+    EXPECT(drillmbd::model::try_read(kept, damaged) == DMB_ERR_VALUE && kept);
+}
+
+// Ids of one kind: not to be taken for those of another, and for all the fields of C.
+void ids_have_kinds()
+{
+    static_assert(!std::is_convertible<drillmbd::body_id, drillmbd::joint_id>::value, "");
+    static_assert(!std::is_assignable<drillmbd::drive_id &, drillmbd::bit_id>::value, "");
+    static_assert(!std::is_convertible<dmb_id, drillmbd::joint_id>::value, "");
+    static_assert(std::is_convertible<drillmbd::body_id, dmb_id>::value, "");
+    static_assert(std::is_same<decltype(std::declval<drillmbd::model>().add_load(dmb_load_def_default())),
+                               drillmbd::load_id>::value,
+                  "");
 }
 
 void owners_are_moved_only()
@@ -654,8 +712,8 @@ void arrays_are_spans()
 {
     drillmbd::model model;
     const std::int32_t targets[2] = {DMB_TARGET_LATERAL_DAMPING, DMB_TARGET_AXIAL_DAMPING};
-    const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 2);
-    dmb_id inputs[2];
+    const auto string = model.add_pipes(dmb_pipe_def_default(), 2);
+    drillmbd::input_id inputs[2];
     for (int i = 0; i < 2; i++) {
         dmb_input_def def = dmb_input_def_default();
         def.target = targets[i];
@@ -690,7 +748,7 @@ void callbacks_do_not_throw_through_c()
     };
     drillmbd::model model;
     dmb_drive_def drive = dmb_drive_def_default();
-    const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 2);
+    const auto string = model.add_pipes(dmb_pipe_def_default(), 2);
     drive.component = DMB_RX;
     drive.time_function =
         model.add_time_function(drillmbd::segment_of(speed, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL));
@@ -725,6 +783,8 @@ int main()
         failures_throw();
         failures_return();
         parts_have_names();
+        records();
+        ids_have_kinds();
         owners_are_moved_only();
         errors_are_data();
         spans_of_all_kinds();

@@ -63,7 +63,7 @@ void mud_goes_along(int axis)
     body.position[1] = 3.0;
     body.added_mass[0] = 2.0;
     body.added_mass[1] = 7.0;
-    const dmb_id sphere = model.add_body(body);
+    const auto sphere = model.add_body(body);
     load.place = dmb_station(sphere, 0, 0.0);
     load.force[axis] = 60.0;
     model.add_load(load);
@@ -92,10 +92,10 @@ void motors_take_pressure()
     model.set_environment(environment);
     model.add_wall(wall);
     pipe.kind = DMB_PIPE_RIGID;
-    const dmb_id string = model.add_pipes(pipe, 2);
+    const auto string = model.add_pipes(pipe, 2);
     body.mass = 50.0;
     body.position[0] = 2.0;
-    const dmb_id shaft = model.add_body(body);
+    const auto shaft = model.add_body(body);
     joint.kind = DMB_JOINT_REVOLUTE;
     joint.place_a = dmb_station(string, 1, 1.0);
     joint.place_b = dmb_station(shaft, 0, 0.0);
@@ -108,7 +108,7 @@ void motors_take_pressure()
     EXPECT(near(drive.mud_pressure, 2.0 * pi / (0.8 * 0.02)));
     EXPECT(near(speed, 2.0 * pi * 0.012 / 0.02));
     drive.time_function = model.add_time_function(constant(speed));
-    const dmb_id turning = model.add_drive(drive);
+    const auto turning = model.add_drive(drive);
     model.compile();
     drillmbd::sim sim(model);
     EXPECT(near(sim.flow().motor_loss, 4e6));

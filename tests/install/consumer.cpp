@@ -14,7 +14,7 @@ void build_and_run()
     dmb_segment turning = dmb_segment_default();
 
     model.add_wall(dmb_wall_def_default());
-    const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 4);
+    const auto string = model.add_pipes(dmb_pipe_def_default(), 4);
     model.add_bit(dmb_bit_def_default());
     turning.h0 = 10.0;
     drive.time_function = model.add_time_function(turning);
