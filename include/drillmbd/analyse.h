@@ -284,7 +284,7 @@ typedef struct dmb_check_report {
     uint32_t flexible_parts;    /* [-] flexible and axial-torsional pipes */
     uint32_t elements;          /* [-] of those */
     uint32_t structural_joints; /* [-] fixed joints inside strings, which cost no unknowns */
-    uint32_t joints[16];        /* [-] described joints that are not open, by DMB_JOINT_ kind, shape (16) */
+    uint32_t joints[32];        /* [-] described joints that are not open, by DMB_JOINT_ kind; 0 beyond the kinds */
     uint32_t open_joints;       /* [-] described joints that are open now */
     uint32_t locked_joints;     /* [-] of `joints` those that are locked now */
     uint32_t couplings;         /* [-] */

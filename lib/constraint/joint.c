@@ -92,23 +92,23 @@ typedef struct row_kind {
     uint32_t free;  /* free coordinates */
 } row_kind;
 
-static const row_kind kinds[DMB_ROWS_KINDS] = {
-    [DMB_ROWS_FIXED] = {6, P | R_YX | R_ZX | R_YZ, 0},
-    [DMB_ROWS_REVOLUTE] = {5, P | R_YX | R_ZX, RX},
-    [DMB_ROWS_PRISMATIC] = {5, P_Y | P_Z | R_YX | R_ZX | R_YZ, X},
-    [DMB_ROWS_CYLINDRICAL] = {4, P_Y | P_Z | R_YX | R_ZX, X | RX},
-    [DMB_ROWS_UNIVERSAL] = {4, P | R_YZ, RY | RZ},
-    [DMB_ROWS_SPHERICAL] = {3, P, RX | RY | RZ},
-    [DMB_ROWS_PLANAR] = {3, P_X | R_YX | R_ZX, Y | Z | RX},
-    [DMB_ROWS_POINT_ON_LINE] = {2, P_Y | P_Z, X | RX | RY | RZ},
-    [DMB_ROWS_POINT_ON_HOLE] = {2, P_Y | P_Z, 0},
-    [DMB_ROWS_DISTANCE] = {1, 0, ALL},
-    [DMB_ROWS_FREE] = {0, 0, ALL},
-    [DMB_ROWS_KNIFE_EDGE] = {1, 0, ALL},
-    [DMB_ROWS_ROLLING] = {3, 0, ALL},
-    [DMB_ROWS_TRANSLATIONAL] = {3, R_YX | R_ZX | R_YZ, X | Y | Z},
-    [DMB_ROWS_CROSS_SLIDE] = {4, P_X | R_YX | R_ZX | R_YZ, Y | Z},
-    [DMB_ROWS_SCHOENFLIES] = {2, R_YX | R_ZX, X | Y | Z | RX},
+static const row_kind kinds[DMB_JOINT_KINDS] = {
+    [DMB_JOINT_FIXED] = {6, P | R_YX | R_ZX | R_YZ, 0},
+    [DMB_JOINT_REVOLUTE] = {5, P | R_YX | R_ZX, RX},
+    [DMB_JOINT_PRISMATIC] = {5, P_Y | P_Z | R_YX | R_ZX | R_YZ, X},
+    [DMB_JOINT_CYLINDRICAL] = {4, P_Y | P_Z | R_YX | R_ZX, X | RX},
+    [DMB_JOINT_UNIVERSAL] = {4, P | R_YZ, RY | RZ},
+    [DMB_JOINT_SPHERICAL] = {3, P, RX | RY | RZ},
+    [DMB_JOINT_PLANAR] = {3, P_X | R_YX | R_ZX, Y | Z | RX},
+    [DMB_JOINT_POINT_ON_LINE] = {2, P_Y | P_Z, X | RX | RY | RZ},
+    [DMB_JOINT_POINT_ON_HOLE] = {2, P_Y | P_Z, 0},
+    [DMB_JOINT_DISTANCE] = {1, 0, ALL},
+    [DMB_JOINT_FREE] = {0, 0, ALL},
+    [DMB_JOINT_KNIFE_EDGE] = {1, 0, ALL},
+    [DMB_JOINT_ROLLING] = {3, 0, ALL},
+    [DMB_JOINT_TRANSLATIONAL] = {3, R_YX | R_ZX | R_YZ, X | Y | Z},
+    [DMB_JOINT_CROSS_SLIDE] = {4, P_X | R_YX | R_ZX | R_YZ, Y | Z},
+    [DMB_JOINT_SCHOENFLIES] = {2, R_YX | R_ZX, X | Y | Z | RX},
 };
 
 uint32_t dmb_joint_row_count(int32_t kind)
@@ -229,9 +229,9 @@ void dmb_joint_rows_at(int32_t kind, double length, const double R[9], const dou
     static const double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, origin[3] = {0, 0, 0};
     rows->count = rows->holonomic = 0;
     dot_rows(kinds[kind].held, axes, origin, R, p, V, rows);
-    if (kind == DMB_ROWS_DISTANCE) distance_row(length, R, p, V, rows);
-    if (kind == DMB_ROWS_KNIFE_EDGE) rows->J[add_row(0, 0.0, rows)][1] = 1.0;
-    if (kind == DMB_ROWS_ROLLING) rolling_rows(length, R, p, V, rows);
+    if (kind == DMB_JOINT_DISTANCE) distance_row(length, R, p, V, rows);
+    if (kind == DMB_JOINT_KNIFE_EDGE) rows->J[add_row(0, 0.0, rows)][1] = 1.0;
+    if (kind == DMB_JOINT_ROLLING) rolling_rows(length, R, p, V, rows);
 }
 
 /* Rhat_ij = e_i^T R R0^T e_j = r_i . (row j of R0) */
@@ -239,7 +239,7 @@ void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[
                          const double V[6], dmb_joint_rows *rows)
 {
     rows->count = rows->holonomic = 0;
-    dot_rows(kinds[DMB_ROWS_FIXED].held, R0, p0, R, p, V, rows);
+    dot_rows(kinds[DMB_JOINT_FIXED].held, R0, p0, R, p, V, rows);
 }
 
 double dmb_joint_flip(int32_t kind, const double R[9])
@@ -357,32 +357,32 @@ typedef struct kind_names {
 } kind_names;
 
 /* Rows in the order of constraint/joint.h. */
-static const kind_names names[DMB_ROWS_KINDS] = {
-    [DMB_ROWS_FIXED] = {"fixed", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
-    [DMB_ROWS_REVOLUTE] = {"revolute", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
-    [DMB_ROWS_PRISMATIC] = {"prismatic", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
-    [DMB_ROWS_CYLINDRICAL] = {"cylindrical", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
-    [DMB_ROWS_UNIVERSAL] = {"universal", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YZ}},
-    [DMB_ROWS_SPHERICAL] = {"spherical", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ}},
-    [DMB_ROWS_PLANAR] = {"planar", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
-    [DMB_ROWS_POINT_ON_LINE] = {"point-on-line", {DMB_NAME_PY, DMB_NAME_PZ}},
-    [DMB_ROWS_POINT_ON_HOLE] = {"point-on-hole", {"position across the hole, y", "position across the hole, z"}},
-    [DMB_ROWS_DISTANCE] = {"distance", {"distance"}},
-    [DMB_ROWS_FREE] = {"free", {NULL}},
-    [DMB_ROWS_KNIFE_EDGE] = {"knife-edge", {"sideways speed"}},
-    [DMB_ROWS_ROLLING] = {"rolling", {"height of the rim", "slip along the way", "slip across the way"}},
-    [DMB_ROWS_TRANSLATIONAL] = {"translational", {DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
-    [DMB_ROWS_CROSS_SLIDE] = {"cross-slide", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
-    [DMB_ROWS_SCHOENFLIES] = {"schoenflies", {DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+static const kind_names names[DMB_JOINT_KINDS] = {
+    [DMB_JOINT_FIXED] = {"fixed", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_JOINT_REVOLUTE] = {"revolute", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_JOINT_PRISMATIC] = {"prismatic", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_JOINT_CYLINDRICAL] = {"cylindrical", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_JOINT_UNIVERSAL] = {"universal", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YZ}},
+    [DMB_JOINT_SPHERICAL] = {"spherical", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ}},
+    [DMB_JOINT_PLANAR] = {"planar", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_JOINT_POINT_ON_LINE] = {"point-on-line", {DMB_NAME_PY, DMB_NAME_PZ}},
+    [DMB_JOINT_POINT_ON_HOLE] = {"point-on-hole", {"position across the hole, y", "position across the hole, z"}},
+    [DMB_JOINT_DISTANCE] = {"distance", {"distance"}},
+    [DMB_JOINT_FREE] = {"free", {NULL}},
+    [DMB_JOINT_KNIFE_EDGE] = {"knife-edge", {"sideways speed"}},
+    [DMB_JOINT_ROLLING] = {"rolling", {"height of the rim", "slip along the way", "slip across the way"}},
+    [DMB_JOINT_TRANSLATIONAL] = {"translational", {DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_JOINT_CROSS_SLIDE] = {"cross-slide", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_JOINT_SCHOENFLIES] = {"schoenflies", {DMB_NAME_R_YX, DMB_NAME_R_ZX}},
 };
 
 const char *dmb_joint_kind_name(int32_t kind)
 {
-    return kind >= 0 && kind < DMB_ROWS_KINDS ? names[kind].kind : "joint";
+    return kind >= 0 && kind < DMB_JOINT_KINDS ? names[kind].kind : "joint";
 }
 
 const char *dmb_joint_row_name(int32_t kind, uint32_t row)
 {
-    if (kind < 0 || kind >= DMB_ROWS_KINDS || row >= DMB_ROWS_MAX || names[kind].row[row] == NULL) return "row";
+    if (kind < 0 || kind >= DMB_JOINT_KINDS || row >= DMB_ROWS_MAX || names[kind].row[row] == NULL) return "row";
     return names[kind].row[row];
 }

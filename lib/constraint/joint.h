@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "drillmbd/scene.h"
+
 /* Position and motion of frame b relative to frame a, each fixed at a marker (x, M) on its body
  * (eq:joints.relative-motion):
  *
@@ -57,26 +59,9 @@ void dmb_relative_tangent(const dmb_relative *relative, const double w[6], const
  *                   t = e_x x n/|e_x x n|, t2 = n x t. For a rim that lies flat (sine of the angle below 1e-12) t is
  *                   undefined: its rows of speed are 0. */
 
-/* Kinds are numbered as DMB_JOINT_... in model.h (model/mesh_joint.c asserts it). */
 enum {
-    DMB_ROWS_FIXED = 0,
-    DMB_ROWS_REVOLUTE = 1,
-    DMB_ROWS_PRISMATIC = 2,
-    DMB_ROWS_CYLINDRICAL = 3,
-    DMB_ROWS_UNIVERSAL = 4,
-    DMB_ROWS_SPHERICAL = 5,
-    DMB_ROWS_PLANAR = 6,
-    DMB_ROWS_POINT_ON_LINE = 7,
-    DMB_ROWS_POINT_ON_HOLE = 8,
-    DMB_ROWS_DISTANCE = 9,
-    DMB_ROWS_FREE = 10,
-    DMB_ROWS_KNIFE_EDGE = 11,
-    DMB_ROWS_ROLLING = 12,
-    DMB_ROWS_TRANSLATIONAL = 13,
-    DMB_ROWS_CROSS_SLIDE = 14,
-    DMB_ROWS_SCHOENFLIES = 15,
-    DMB_ROWS_KINDS = 16,
-    DMB_ROWS_MAX = 6
+    DMB_JOINT_KINDS = DMB_JOINT_SCHOENFLIES + 1, /* kinds of joints, DMB_JOINT_... */
+    DMB_ROWS_MAX = 6                             /* rows of one joint */
 };
 
 typedef struct dmb_joint_rows {
@@ -129,7 +114,7 @@ void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const d
 /* Returns "revolute" etc.; "joint" for an unknown kind. */
 const char *dmb_joint_kind_name(int32_t kind);
 /* Returns the name of the component that row `row` of a kind constrains, relative to frame a: "position y", "rotation
- * about z". A locked joint has the rows of DMB_ROWS_FIXED. "row" if the kind has no such row. */
+ * about z". A locked joint has the rows of DMB_JOINT_FIXED. "row" if the kind has no such row. */
 const char *dmb_joint_row_name(int32_t kind, uint32_t row);
 
 #endif

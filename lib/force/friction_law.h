@@ -53,11 +53,17 @@ static inline int dmb_friction_has_memory(const dmb_friction_law *law)
     return law->kind == DMB_FRICTION_BRISTLE;
 }
 
+/* 1: the kind has a static coefficient, or a table of the coefficient over the speed. */
+static inline int dmb_friction_has_static(int32_t kind)
+{
+    return kind == DMB_FRICTION_STRIBECK || kind == DMB_FRICTION_BRISTLE;
+}
+
 /* [-] Largest friction over normal force. */
 static inline dmb_real dmb_friction_most(const dmb_local_friction *local)
 {
-    const int has_static = local->law->kind == DMB_FRICTION_STRIBECK || local->law->kind == DMB_FRICTION_BRISTLE;
-    return has_static ? dmb_real_max(local->mu_static, local->mu_dynamic) : local->mu_dynamic;
+    if (!dmb_friction_has_static(local->law->kind)) return local->mu_dynamic;
+    return dmb_real_max(local->mu_static, local->mu_dynamic);
 }
 
 /* Friction as a function of velocity alone. F [unit of N] is the force on the pipe, dF_dv its tangent (2,2) row by row,

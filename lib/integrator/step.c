@@ -85,9 +85,9 @@ static int32_t stepping_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
     return status;
 }
 
-/* Accepts the step. The state is backed up first unless the call has done so. If a callback may still fail, factors are
- * kept only after the last callback, and are discarded if the accelerations were recomputed with others; after a
- * failure, the factors made by this step are discarded. */
+/* Accepts the step. The state is backed up first, unless this call has backed it up before. If a callback may still
+ * fail, factors are kept only after the last callback, and are discarded if the accelerations were recomputed with
+ * others; after a failure, the factors made by this step are discarded. */
 static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     const dmb_factor_reuse kept = *sim->reuse;

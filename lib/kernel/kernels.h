@@ -229,7 +229,7 @@ typedef struct dmb_response_blocks {
 } dmb_response_blocks;
 
 /* One chain of A(w) x = b, A(w) = (1 + i eta) K + i w C - w^2 M, at the frequencies of a group. */
-typedef struct dmb_response_job {
+typedef struct dmb_response_args {
     uint32_t first, count; /* blocks of the chain, count >= 1 */
     uint32_t used;         /* frequencies, at most DMB_FREQUENCIES */
     uint32_t columns;      /* right-hand sides of each frequency, and their capacity: */
@@ -242,7 +242,7 @@ typedef struct dmb_response_job {
     double omega[DMB_FREQUENCIES];              /* [rad/s] w; numbers behind those that are used are read too */
     double *sides; /* b in, x out: shape (rows, stride, 2, DMB_FREQUENCIES), real parts and imaginary parts */
     double *work;  /* shape (numbers in the chain's `upper`, 2, DMB_FREQUENCIES) */
-} dmb_response_job;
+} dmb_response_args;
 
 /* Sums of squares computed in lanes: of four six-DOF nodes, of twelve axial-torsional nodes. */
 #define DMB_SQUARES 24
@@ -287,7 +287,7 @@ typedef struct dmb_kernels {
     void (*node_forces)(dmb_node_force_args *args);
     /* Forces of touching contact points and, if requested, tangent blocks; contact fields of the trial. */
     void (*walls)(dmb_wall_args *args);
-    void (*responses)(dmb_response_job *args);
+    void (*responses)(dmb_response_args *args);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL if the build or the processor does not support that width. */

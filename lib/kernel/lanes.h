@@ -153,8 +153,8 @@ DMB_LANES_INLINE int32_t beams_of(dmb_beam_args *args, const dmb_beam_task *task
     return 0;
 }
 
-/* Most evaluations want nothing but forces in motion: compiled for these alone, less is kept in memory. Functions of
- * their own, whose frames on the stack are not added up. */
+/* Specialised for the most frequent case, dynamic forces without tangent, with fewer register spills. Not inlined, so
+ * that stack frames do not add up. */
 DMB_LANES_CALL int32_t beams_in_motion(dmb_beam_args *args, int32_t rates)
 {
     const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, rates, 0, 0, 0, 0, NULL};
@@ -260,7 +260,7 @@ static void advance(dmb_node_args *args)
     for (int l = 0; l < DMB_REAL_LANES; l++) args->turned = fmax(args->turned, dmb_real_lane(&turned, l));
 }
 
-/* On the turn that the increment of the step leads to. */
+/* Unwraps the rotation angle to the revolution predicted by the increment of the step. */
 static void turns(const dmb_turn_args *args)
 {
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
@@ -276,7 +276,7 @@ static void turns(const dmb_turn_args *args)
     }
 }
 
-/* Both vectors of a row, turned about x by the angle between the two frames. */
+/* Rotates both vectors of a node about x by the relative angle of the two frames. */
 static void twist(const dmb_twist_args *args)
 {
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {

@@ -50,7 +50,7 @@ static inline void load_axial_torsional(const dmb_axial_torsional_args *args, co
     dmb_real_set_lane(c->mass + 1, l, mass[1]);
 }
 
-/* True if they are those of whole bars of one type, and the group has these too. */
+/* True if the loaded constants are those of the group's elements: all of one type, none cut off at the end. */
 static inline int are_same_axial_torsional(const dmb_axial_torsional_args *args, const lane_group *g,
                                            const axial_torsional_constants *c)
 {
@@ -72,7 +72,7 @@ static inline void load_axial_torsional_group(const dmb_axial_torsional_args *ar
     }
 }
 
-/* Way along the axis and turn about it of the node that is `after` nodes behind the one of each row. */
+/* [m, rad] Displacement along and rotation about the axis of the node `after` nodes behind that of each row. */
 static inline dmb_real load_place(const dmb_axial_torsional_args *args, const lane_group *g, size_t after)
 {
     dmb_real x = dmb_real_of(0.0);
@@ -83,13 +83,13 @@ static inline dmb_real load_place(const dmb_axial_torsional_args *args, const la
     return x;
 }
 
-/* Forces on the far nodes of the last bars of a group: they are added with the forces on these as near nodes, for
- * memory that is written and read at once in other places keeps the processor waiting. */
+/* Forces on the far nodes of a group's last elements. They are added together with the forces of the next group on the
+ * same nodes, which avoids store-forwarding stalls. */
 typedef struct axial_torsional_ends {
     double residual[2], scale[2];
 } axial_torsional_ends;
 
-/* x two rows on: behind the last two of the group before, which those of this one replace. */
+/* x shifted by two rows: the first two come from the previous group's `last`, which is then updated. */
 static inline dmb_real two_rows_on(dmb_real x, const lane_group *g, double last[2])
 {
     dmb_real on = x;
@@ -104,12 +104,13 @@ static inline void add_line(dmb_real a, dmb_real b, const lane_group *g, double 
     store_line((load_line(to, g) + b) + a, g, to);
 }
 
-/* Forces of a bar on the rows of its nodes, a and b, the latter two rows on; and what they do. */
+/* Forces of an axial-torsional element on the rows of its nodes a and b, those of b shifted by two rows; their powers.
+ */
 typedef struct axial_torsional_forces {
     dmb_real elastic, viscous, mass_a, mass_b;
 } axial_torsional_forces;
 
-/* The length is left out of differences, which keeps their digits. */
+/* The length cancels analytically and is left out of the difference, which avoids cancellation. */
 static inline dmb_real elastic_force(const dmb_axial_torsional_args *args, const lane_group *g,
                                      const axial_torsional_constants *c, lane_sum *rounding)
 {

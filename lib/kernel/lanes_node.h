@@ -10,7 +10,7 @@
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 
-/* Nodes of a group, with what is added to their rows and blocks. */
+/* Nodes of a group, with their contributions to rows and blocks. */
 typedef struct node_group {
     lane_group place;
     dmb_real v[6], residual[6], scale[6];
@@ -25,8 +25,8 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
     }
 }
 
-/* Rigid masses stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it
- * is on one of the group's nodes. */
+/* Rigid masses are stored in the order of their nodes; *next becomes the first that is not before the group. Returns 1
+ * if it is on one of the group's nodes. */
 static inline int has_rigid_masses(const dmb_node_force_args *args, const lane_group *g, uint32_t *next)
 {
     while (*next < args->rigid_mass_count && args->rigid_masses[*next].node < args->first + g->first) (*next)++;
@@ -148,7 +148,7 @@ DMB_LANES_INLINE void node_forces_of(dmb_node_force_args *args, int tangent)
     }
 }
 
-/* Most evaluations want no tangent. */
+/* Specialised for evaluations without tangent, which are most. */
 static void node_forces(dmb_node_force_args *args)
 {
     if (args->tangent)
@@ -157,15 +157,15 @@ static void node_forces(dmb_node_force_args *args)
         node_forces_of(args, 0);
 }
 
-/* Rows one after the other, all alike: as wide as the compiler makes the loops for this processor. gcc gives up where
- * it would have to compare many addresses, and does not take the word of pointers in a function. */
+/* Loops over rows, vectorised by the compiler. gcc does not vectorise loops with many run-time alias checks and ignores
+ * restrict on local pointers. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define DMB_LANES_APART _Pragma("GCC ivdep")
 #else
 #define DMB_LANES_APART
 #endif
 
-/* Generalized-alpha from an acceleration that stays (eq:integration.newmark): a0 carried over from the last step, which
+/* Generalized-alpha with constant acceleration (eq:integration.newmark): a0 carried over from the last step, which
  * may have had another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
  * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
 static void predict_constant(const dmb_predict_args *args)

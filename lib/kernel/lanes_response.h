@@ -19,15 +19,15 @@ typedef struct lane_complex {
     dmb_real re, im;
 } lane_complex;
 
-/* A part of the frequencies of a job, as many as there are lanes. */
+/* Frequencies of one call that are computed side by side, one in each lane. */
 typedef struct response_lanes {
     dmb_real omega, square; /* [rad/s], [rad2/s2] */
-    const dmb_response_job *args;
-    uint32_t lane; /* of the job, that is the first here */
+    const dmb_response_args *args;
+    uint32_t lane; /* index of the first of these frequencies in the call */
     uint32_t bad;  /* one bit for each lane where a pivot is too small */
 } response_lanes;
 
-/* Rows of block i: of D_i, of U_i, and of the right-hand sides, which stay where they are. */
+/* Rows of block i: of D_i, of U_i, and of the right-hand sides, in place. */
 typedef struct response_rows {
     lane_complex D[LANES_BLOCK], U[LANES_BLOCK];
     double *sides;
@@ -71,7 +71,7 @@ DMB_LANES_INLINE void complex_exchange(dmb_mask mask, lane_complex *x, lane_comp
     y->im = dmb_real_select(mask, a.im, b.im);
 }
 
-/* Numbers of right-hand sides: all frequencies of the job stand there, real parts before imaginary parts. */
+/* Entries of right-hand sides: all frequencies of the call, real parts before imaginary parts. */
 DMB_LANES_INLINE lane_complex load_side(const double *from)
 {
     lane_complex x;
@@ -123,7 +123,7 @@ DMB_BLOCK_KERNEL void assemble_block(const response_lanes *l, int count, const d
     }
 }
 
-/* Supported rows are zero but for a one. */
+/* Constrained rows are identity. */
 DMB_BLOCK_KERNEL void assemble_diagonal(const response_lanes *l, int n, uint32_t i, lane_complex *D)
 {
     const dmb_block_layout *layout = l->args->layout;
@@ -157,7 +157,7 @@ DMB_BLOCK_KERNEL dmb_real pivot_row(int n, int k, const lane_complex *D)
     return found;
 }
 
-/* Exchanges row k with the row of its pivot, a row of its own in each lane; most often it is there. */
+/* Exchanges row k with the row of its pivot, a different row in each lane; usually no exchange is needed. */
 DMB_BLOCK_KERNEL void invert_pivot(const response_lanes *l, int n, int m, int k, response_rows *r)
 {
     const size_t next = row_stride(l);
@@ -171,7 +171,7 @@ DMB_BLOCK_KERNEL void invert_pivot(const response_lanes *l, int n, int m, int k,
     }
 }
 
-/* Marks the lanes where pivot k of block i is no number to divide by, or of rounding size beside K and w^2 M. */
+/* Marks the lanes where pivot k of block i is zero, not finite, or of rounding size compared with K and w^2 M. */
 static inline void watch_pivot(response_lanes *l, uint32_t at, lane_complex pivot, lane_complex inverse)
 {
     const double K = fabs(l->args->diagonal.stiffness[at]), M = fabs(l->args->diagonal.mass[at]);
@@ -313,7 +313,7 @@ static void response_chain(response_lanes *l)
     }
 }
 
-static void responses(dmb_response_job *args)
+static void responses(dmb_response_args *args)
 {
     args->bad = 0;
     for (uint32_t lane = 0; lane < args->used; lane += DMB_REAL_LANES) {

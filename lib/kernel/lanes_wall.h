@@ -1,5 +1,5 @@
-/* Contact sites side by side: rings against the wall of the hole. Rings that do not touch add nothing; what rings
- * add is added one ring after the other. */
+/* Contact points on the wall of the hole, side by side. Contributions are summed in the order of the contact points;
+ * those without contact add nothing. */
 #ifndef DMB_KERNEL_LANES_WALL_H
 #define DMB_KERNEL_LANES_WALL_H
 
@@ -18,29 +18,29 @@ typedef struct wall_laws {
     dmb_local_friction friction;
 } wall_laws;
 
-/* Rings of a group. */
+/* Contact points of a group. */
 typedef struct wall_group {
     dmb_real offset, clearance, length;
     dmb_real x[3];                                 /* [m] their centres, world */
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
     dmb_real penetration, impact_speed;
-    dmb_mask touches, own;         /* own: those that have the mean force of the step */
-    dmb_real pressed;              /* [N] of those in the first evaluation: where they come to rest alone */
-    dmb_real heat;                 /* [W] into the wall, of those */
+    dmb_mask touches, own;         /* own: contact points with a mean force over the step (eq:contact.mean) */
+    dmb_real pressed;              /* [N] their mean force at the penetration of rest, in the first evaluation */
+    dmb_real heat;                 /* [W] their power dissipated in the wall */
     dmb_real turned;               /* [-] cosine of the angle between the normals at the start and now */
-    dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
-    dmb_real bristle[2];           /* [m] the same */
+    dmb_real kept[DMB_TOUCH_SIZE]; /* touch history of contact points in contact */
+    dmb_real bristle[2];           /* [m] of contact points in contact */
     dmb_contact_frame frame;
-    dmb_section_contact section;        /* of a hole of sections */
-    const dmb_local_normal *normal_law; /* at the rings */
+    dmb_section_contact section;        /* in a hole with sections */
+    const dmb_local_normal *normal_law; /* at the contact points */
     const dmb_local_friction *friction_law;
     lane_places node, row;
-    uint32_t touching; /* one bit for each lane that touches and is not one again */
-    uint32_t sticking; /* the same */
+    uint32_t touching; /* bit mask of the lanes in contact, without lanes that repeat the last contact point */
+    uint32_t sticking; /* bit mask of those that stick (bristle law) */
     lane_group site;
 } wall_group;
 
-/* In a hole of sections each ring has constants of its own. */
+/* In a hole with sections the wall's constants depend on the measured depth of the contact point. */
 static inline int has_sections(const dmb_wall_args *args)
 {
     return args->hole->pieces > 0;
@@ -64,8 +64,8 @@ DMB_LANES_CALL void find_places(const dmb_wall_args *args, wall_group *g)
     }
 }
 
-/* Rings stand in the order of their nodes: those of neighbours that move freely are together as their nodes and rows
- * are, six to a node. */
+/* Contact points are stored in the order of their nodes. If the nodes of a group are neighbours with six rows each,
+ * rows and blocks are contiguous. */
 static inline void load_places(const dmb_wall_args *args, wall_group *g)
 {
     const size_t first = args->sites[g->site.first].node;
@@ -148,7 +148,8 @@ static inline void locate(const dmb_wall_args *args, wall_group *g)
     store(g->normal, 3, &g->site, args->trial.normal);
 }
 
-/* Speed of the rings at the last accepted instant towards where they are now: they may have crossed the axis since. */
+/* [m/s] Speed of the contact points at the last accepted state, along the present normal: the point may have crossed
+ * the axis since. */
 static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group *g)
 {
     dmb_real q[4], R[9], V[6];
@@ -161,8 +162,9 @@ static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group 
     return dmb_vec3_dot(g->normal, V);
 }
 
-/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
- * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
+/* Impact speed v0 of the restitution laws: the normal speed at the last accepted state before contact. Without contact
+ * the field holds the present normal speed. A contact point that opens and closes within one step has the speed of its
+ * separation. */
 static inline void set_impact_speed(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
@@ -178,7 +180,8 @@ static inline void set_impact_speed(const dmb_wall_args *args, wall_group *g)
     g->impact_speed = dmb_real_select(touches, closed, dmb_real_select(touched, impact_speed, g->frame.speed[0]));
 }
 
-/* The walls of a group, found one by one; constants beside those of the place are those of the whole hole. */
+/* Constants of the wall at each contact point of the group; those without a dependence on depth are those of the hole.
+ */
 static inline void load_walls(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     dmb_section_contact *section = &g->section;
@@ -192,7 +195,8 @@ static inline void load_walls(const dmb_wall_args *args, const wall_laws *laws, 
     }
 }
 
-/* The wall at the rings, and the speed at which they go in. */
+/* Constants of the wall at the contact points, and the normal speed relative to a wall whose radius changes with depth.
+ */
 static inline void enter_section(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     dmb_vec3_zero(g->section.curvature);
@@ -213,7 +217,7 @@ static inline void read_laws(const dmb_wall_args *args, const wall_laws *laws, w
     g->friction_law = &g->section.friction;
 }
 
-/* Position and motion of the rings, and the part of it that the trial holds. */
+/* Position, normal, penetration and speeds of the contact points, written to the trial configuration. */
 static inline void place_sites(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     load_sites(args, g);
@@ -232,7 +236,7 @@ static inline void place_sites(const dmb_wall_args *args, const wall_laws *laws,
     store(g->frame.speed + 1, 2, &g->site, args->trial.slip);
 }
 
-/* Rings that do not touch keep nothing of the friction law. */
+/* Without contact the bristle deflection is 0. */
 static inline void keep_bristles(const dmb_wall_args *args, const wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
@@ -243,7 +247,7 @@ static inline void keep_bristles(const dmb_wall_args *args, const wall_group *g)
         args->trial.sticks[g->site.first + l] = (int32_t)((g->sticking & g->touching) >> l & 1);
 }
 
-/* Where friction is not asked for, rings that touch keep what they have. */
+/* Evaluations without friction leave the deflection of contact points in contact unchanged. */
 static inline void begin_bristles(const dmb_wall_args *args, wall_group *g)
 {
     g->sticking = 0;
@@ -269,9 +273,9 @@ static inline void bristles(const dmb_wall_args *args, wall_group *g, dmb_real N
     g->sticking = dmb_mask_bits(sticks);
 }
 
-/* In the first evaluation of a step the tangent of rings with a mean force is that under the force N0 to which the
- * ring comes alone, at the predicted slip or, where friction can stop that within the step, at rest: from the slip that
- * is predicted Newton would go to and fro across the steep part of the law. */
+/* In the first evaluation of a step the friction tangent of contact points with a mean force is evaluated at the force
+ * N0 at which the contact point alone comes to rest, and at the predicted slip, or at slip 0 if friction can stop it
+ * within the step. From the predicted slip Newton would alternate across the steep part of the law. */
 DMB_LANES_CALL void rub_at_start(const dmb_wall_args *args, const wall_group *g, dmb_real N, dmb_real F[2],
                                  dmb_real by_speed[4], dmb_real by_normal[2])
 {
@@ -301,7 +305,7 @@ static inline void add_friction(const dmb_wall_args *args, wall_group *g, dmb_co
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
 
-/* Takes -K, moved from the rings to their nodes, into the diagonal blocks of the nodes. */
+/* Adds -K, transformed from the contact points to their nodes, to the diagonal blocks of the nodes. */
 static inline void subtract_blocks(const dmb_wall_args *args, const wall_group *g, uint32_t touching, int arms,
                                    dmb_real K[36], double *blocks)
 {
@@ -329,8 +333,8 @@ static inline void add_tangent(const dmb_wall_args *args, const wall_group *g, u
     subtract_blocks(args, g, touching, arms, K, args->inertia);
 }
 
-/* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in
- * an inclined one the way along it. */
+/* [N2] Square of the rounding of the normal force: the distance to the axis is a difference of world coordinates, of
+ * which those along the normal contribute. */
 static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
 {
     dmb_real reach = dmb_real_of(0.0);
@@ -339,7 +343,7 @@ static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
     return force * force;
 }
 
-/* Adds what each ring does to the rows of its node; -0 changes nothing. */
+/* Adds the wrench of each contact point to the rows of its node. Adding -0.0 is exact. */
 static inline void add_rows(const wall_group *g, const dmb_real x[6], double *rows)
 {
     const dmb_real nothing = dmb_real_of(-0.0);
@@ -360,8 +364,8 @@ static inline void add_touching(dmb_real x, const wall_group *g, double *to)
     add_each(dmb_real_select(g->touches, x, dmb_real_of(-0.0)), &g->site, to);
 }
 
-/* The powers of a mean force: heat into the wall, friction over the step as the trapezoidal rule counts its end, and
- * what is left (eq:contact.mean). */
+/* [W] Powers of a mean force: dissipated in the wall, friction with the weight of the trapezoidal rule at the end of
+ * the step, and the remaining potential part (eq:contact.mean). */
 static inline void set_own_powers(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
                                   dmb_real power[3])
 {
@@ -395,10 +399,10 @@ static inline void add_forces(dmb_wall_args *args, const wall_group *g, const dm
     add_touching(power[2], g, &args->friction);
 }
 
-/* ---- Mean force of a step in which rings meet the wall or leave it (system/assemble/bounces.h) --------------------
+/* ---- Mean force of a step in which contact closes or opens (system/assemble/bounces.h) --------------------
  */
 
-/* Rings whose mark is at least that. */
+/* Contact points whose mark is at least `least`. */
 static inline dmb_mask those_of(const uint8_t *marks, double least, const wall_group *g)
 {
     dmb_real marked = dmb_real_of(0.0);
@@ -406,8 +410,8 @@ static inline dmb_mask those_of(const uint8_t *marks, double least, const wall_g
     return dmb_mask_at_most(dmb_real_of(least), marked);
 }
 
-/* Rings that meet the wall in the step, or another side of it, and do not resolve that, and those in a mode of their
- * own. Pinned rings never open. */
+/* Contact points that close in the step, or change to the other side of the hole, without being resolved, and those
+ * already integrated by a mean force. Contact points without clearance never open. */
 static inline dmb_mask with_mean_force(const dmb_wall_args *args, const wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0), before = load_line(args->now.penetration, &g->site);
@@ -417,7 +421,7 @@ static inline dmb_mask with_mean_force(const dmb_wall_args *args, const wall_gro
     return own & dmb_mask_less(zero, g->clearance);
 }
 
-/* Of the mean force, with the depth in a hole of sections. */
+/* [N/m] Derivative of the mean force with the measured depth, in a hole with sections. */
 static inline dmb_real mean_slope(const dmb_wall_args *args, const wall_group *g)
 {
     return args->own_factor * dmb_section_mean_slope(&g->section, load_line(args->now.penetration, &g->site),
@@ -425,7 +429,7 @@ static inline dmb_real mean_slope(const dmb_wall_args *args, const wall_group *g
                                                      those_of(args->coarse, DMB_SITE_PLASTIC, g), args->step);
 }
 
-/* The part along the axis; changes of the laws with the depth. */
+/* Axial component of the wall force where the radius changes with depth, and derivatives of the laws with depth. */
 static inline void press_section(const dmb_wall_args *args, wall_group *g, const dmb_contact_force *c,
                                  dmb_real wrench[6])
 {
@@ -433,16 +437,17 @@ static inline void press_section(const dmb_wall_args *args, wall_group *g, const
     const dmb_real depth = dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION));
     dmb_real slope = dmb_section_normal_slope(&g->section, depth, g->frame.speed[0], g->impact_speed);
     if (dmb_mask_any(g->own)) slope = dmb_real_select(g->own, mean_slope(args, g), slope);
-    const dmb_section_site ring = {.length = g->length,
+    const dmb_section_site site = {.length = g->length,
                                    .penetration = depth,
                                    .normal_slope = slope,
                                    .friction = friction,
                                    .memory = args->dynamic && friction && dmb_friction_has_memory(args->friction_law)};
-    dmb_section_force(&g->frame, c, &ring, &g->section);
+    dmb_section_force(&g->frame, c, &site, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
 }
 
-/* [-] of the way to where a ring comes to rest: from there on Newton's first steps only halve what is left. */
+/* [-] Ratio of the predicted penetration to that of rest above which the tangent is taken at rest: farther away Newton
+ * only halves the distance in each iteration. */
 #define DMB_MEAN_FAR 3.0
 
 DMB_LANES_CALL void mean_of(const dmb_wall_args *args, const wall_group *g, dmb_real depth, dmb_normal_mean *mean)
@@ -451,7 +456,8 @@ DMB_LANES_CALL void mean_of(const dmb_wall_args *args, const wall_group *g, dmb_
                        those_of(args->coarse, DMB_SITE_PLASTIC, g), args->step, mean);
 }
 
-/* Of rings in free flight, where that is far. */
+/* *depth [m]: penetration at which the contact point alone comes to rest, if the prediction (free flight) is far from
+ * it. */
 static inline void come_to_rest(const dmb_wall_args *args, const wall_group *g, dmb_real *depth)
 {
     enum { CORRECTIONS = 12 };
@@ -465,9 +471,9 @@ static inline void come_to_rest(const dmb_wall_args *args, const wall_group *g, 
     *depth = dmb_real_select(dmb_mask_less(way, predicted - *depth), *depth, predicted);
 }
 
-/* It stands for the mean force at the end of the step; the wall takes twice its mean power there. Predicted depths are
- * those of free flight: from there Newton would only halve them again and again, so that the tangent is that in the
- * depth to which the ring comes alone. */
+/* Force at the end of the step that is equivalent to the mean force (eq:contact.mean). The dissipated power counts
+ * twice there (trapezoidal rule). Predicted depths are those of free flight, from which Newton converges slowly;
+ * therefore the tangent is taken at the depth at which the contact point alone comes to rest. */
 static inline void set_mean_force(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     dmb_normal_mean mean;
@@ -481,8 +487,8 @@ static inline void set_mean_force(const dmb_wall_args *args, wall_group *g, dmb_
     g->heat = -(2.0 / args->step) * (g->length * mean.taken);
 }
 
-/* Where the history of the step has a mean force G already, the end of the step stands for what is more than that: of
- * own_factor N it has own_factor (N - G) + G. Friction is that of the whole mean force. */
+/* If the history of the step already contains the mean force G, the force at the end of the step is own_factor (N - G)
+ * + G instead of own_factor N. Friction is that of the whole mean force N. */
 static inline void subtract_history(const dmb_wall_args *args, const wall_group *g, dmb_contact_force *c,
                                     dmb_real wrench[6])
 {
@@ -498,7 +504,8 @@ static inline void keep_presses(const dmb_wall_args *args, const wall_group *g, 
     for (uint32_t l = 0; l < g->site.used; l++) args->presses[g->site.first + l] = (uint8_t)(bits >> l & 1);
 }
 
-/* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
+/* Weight of the damping in steps with touch or release (eq:touch.weights), and the history that it needs. Contact
+ * points without clearance never open. */
 static inline void weigh(const dmb_wall_args *args, const wall_group *g, dmb_normal_touch *touch,
                          dmb_real kept[DMB_TOUCH_SIZE])
 {
@@ -519,8 +526,8 @@ static inline void weigh(const dmb_wall_args *args, const wall_group *g, dmb_nor
     for (int i = 0; i < DMB_TOUCH_SIZE; i++) kept[i] = dmb_real_select(g->own, zero, kept[i]);
 }
 
-/* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
- * contact that opens let go. */
+/* Without contact the touch history holds only the (tensile) force that the law would give; the time of opening is
+ * interpolated from it. */
 static inline void keep_touch(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_local_normal *law = g->normal_law;

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "drillmbd/scene.h"
+#include "force/friction_law.h"
 #include "force/mud_flow.h"
 #include "math/real.h"
 #include "model/describe.h"
@@ -52,7 +53,7 @@ static void check_laws(dmb_check *check, const dmb_wall_def *def)
     const int32_t law = def->friction_law;
     if (def->normal_law == DMB_NORMAL_FLORES)
         dmb_check_above(check, "restitution", def->restitution, 0.0); /* its mu is like 1/e */
-    if (def->friction_table_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE))
+    if (def->friction_table_count == 0 && dmb_friction_has_static(law))
         dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
     if (law == DMB_FRICTION_AMBROSIO)
         dmb_check_above_field(check, "full_speed", def->full_speed, "smoothing_speed", def->smoothing_speed);
@@ -72,8 +73,7 @@ static void check_friction_table(dmb_check *check, const dmb_wall_def *def)
                            "> the one before, by 1e-12");
     dmb_check_within(check, "friction_table_mu (the last one)", def->friction_table_mu[n - 1], DMB_NUMBER_MIN,
                      DMB_NUMBER_MAX);
-    if (check->status < 0 || def->friction_law == DMB_FRICTION_STRIBECK || def->friction_law == DMB_FRICTION_BRISTLE)
-        return;
+    if (check->status < 0 || dmb_friction_has_static(def->friction_law)) return;
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "friction_law", def->friction_law,
                    "DMB_FRICTION_STRIBECK or DMB_FRICTION_BRISTLE with friction_table_count > 0");
 }

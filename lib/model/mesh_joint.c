@@ -72,25 +72,6 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
     return true;
 }
 
-/* Kinds of joints in the description equal those of the equations. */
-#define DMB_SAME_KIND(name) _Static_assert((int)DMB_ROWS_##name == (int)DMB_JOINT_##name, "kinds of joints: " #name)
-DMB_SAME_KIND(FIXED);
-DMB_SAME_KIND(REVOLUTE);
-DMB_SAME_KIND(PRISMATIC);
-DMB_SAME_KIND(CYLINDRICAL);
-DMB_SAME_KIND(UNIVERSAL);
-DMB_SAME_KIND(SPHERICAL);
-DMB_SAME_KIND(PLANAR);
-DMB_SAME_KIND(POINT_ON_LINE);
-DMB_SAME_KIND(POINT_ON_HOLE);
-DMB_SAME_KIND(DISTANCE);
-DMB_SAME_KIND(FREE);
-DMB_SAME_KIND(KNIFE_EDGE);
-DMB_SAME_KIND(ROLLING);
-DMB_SAME_KIND(TRANSLATIONAL);
-DMB_SAME_KIND(CROSS_SLIDE);
-DMB_SAME_KIND(SCHOENFLIES);
-_Static_assert((int)DMB_ROWS_KINDS == (int)DMB_JOINT_SCHOENFLIES + 1, "kinds of joints");
 _Static_assert((int)DMB_CONSTRAINT_ROWS == (int)DMB_ROWS_MAX, "rows of a joint");
 
 /* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */

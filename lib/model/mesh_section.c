@@ -4,6 +4,7 @@
  * which is one parabola where the two lines meet. Behind them the values hold or go straight on. The mean over the
  * transition of a step is that of the sharp one, so that friction takes the same work. */
 #include "drillmbd/scene.h"
+#include "force/friction_law.h"
 #include "force/hole.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
@@ -41,11 +42,6 @@ static section_values of_section(const dmb_wall_def *wall, const dmb_hole_sectio
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static int has_curve(const dmb_wall_def *wall)
-{
-    return wall->friction_law == DMB_FRICTION_STRIBECK || wall->friction_law == DMB_FRICTION_BRISTLE;
-}
-
 /* The bounds that the laws set to the wall's constants, with those of the wall filled in. */
 static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_section *given, const section_values *s)
 {
@@ -56,7 +52,7 @@ static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_
         dmb_check_fail(&check, DMB_ERR_VALUE, "mu_static", given->mu_static,
                        "left out (-1): friction_table_speed and friction_table_mu of the wall say it, in proportion to "
                        "mu_dynamic");
-    else if (wall->friction_table_count == 0 && has_curve(wall))
+    else if (wall->friction_table_count == 0 && dmb_friction_has_static(wall->friction_law))
         dmb_check_at_least_field(&check, "mu_static", s->v[DMB_WALL_MU_STATIC], "mu_dynamic",
                                  s->v[DMB_WALL_MU_DYNAMIC]);
     return check.status;

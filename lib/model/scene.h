@@ -80,10 +80,10 @@ typedef struct dmb_scene_bit {
     uint32_t load;             /* time function of the bottom-hole load; DMB_NONE: none */
     uint32_t history_first;    /* start of its samples in the history arrays */
     uint32_t history_capacity; /* 0 unless regenerative */
-    double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
+    double arm; /* [m] along body x from the node to the bit (not 0 if rigid pipes lie between node and bit) */
     dmb_side_law side;
-    double face, length; /* [m] from the reference point to the face that cuts, and what it is long behind that */
-    int32_t reamer;      /* 1: on a ring */
+    double face, length; /* [m] from the reference point to the cutting face; gauge length behind it */
+    int32_t reamer;      /* 1: on a stabiliser */
     int32_t reserved;
 } dmb_scene_bit;
 
@@ -153,7 +153,7 @@ typedef struct dmb_chain {
     int32_t reserved;
 } dmb_chain;
 
-/* A node that carries nothing but a rigid mass and moves freely: its centre of mass is what is integrated. */
+/* A free rigid body, integrated at its centre of mass. */
 typedef struct dmb_free_rigid {
     double centre[3]; /* [m] of mass, from the node, body frame */
     uint32_t node, rigid_mass;
@@ -161,7 +161,7 @@ typedef struct dmb_free_rigid {
     uint32_t reserved;
 } dmb_free_rigid;
 
-/* A body on joints that a step turns about an axis of its own (system/constrain/rotor.h). */
+/* A body on joints that is integrated in axes rotating with its spin (system/constrain/rotor.h). */
 typedef struct dmb_scene_rotor {
     double twist[6]; /* [m, -] velocity of the node at a spin of 1 rad/s about the axis, body frame */
     uint32_t node, rigid_mass;
@@ -169,8 +169,8 @@ typedef struct dmb_scene_rotor {
     uint32_t reserved;
 } dmb_scene_rotor;
 
-/* Nodes that a force acts on: within one node, or the two of an element, its tangent has room in the blocks of the
- * chain; others have a constraint without equations, which couples them. */
+/* A spring between two points. The tangent of a force on one node, or on both nodes of one element, is stored in the
+ * chain's blocks; other springs get a constraint with 0 equations that couples their nodes. */
 typedef struct dmb_scene_spring {
     dmb_scene_point a, b;
     double span[3];      /* [m] origin of b's node less origin of a's (or of the world), at time 0, world, exact */
@@ -184,8 +184,8 @@ typedef struct dmb_scene_spring {
 /* A place that can be stuck: it acts on one node, or the two of an element. */
 typedef struct dmb_scene_stuck {
     dmb_scene_point point;
-    double stiffness[3], damping[3]; /* along, about, sideways; 0 of what it does not hold */
-    double release[2];               /* [N, N m] at which it lets go; infinite: never */
+    double stiffness[3], damping[3]; /* along, about, sideways; 0 for free components */
+    double release[2];               /* [N, N m] force and torque of release; infinite: never released */
     int32_t initially;
     uint32_t input; /* that sets it; DMB_NONE: none */
     char name[24];
@@ -195,7 +195,7 @@ typedef struct dmb_scene_stuck {
 typedef struct dmb_cluster {
     uint32_t constraint, constraint_count; /* range of constraints */
     uint32_t node, node_count;             /* range of cluster_nodes */
-    uint32_t row, rows;                    /* range of constraint rows, room included */
+    uint32_t row, rows;                    /* range of constraint rows, unused ones included */
     uint32_t column, columns;              /* range of cluster_columns */
     uint32_t block;                        /* in the pattern; none of a sparse cluster */
     int32_t sparse; /* 1: each of its nodes has a block, with multipliers; there is no dense storage */
@@ -204,7 +204,7 @@ typedef struct dmb_cluster {
     size_t full;    /* start in work of (columns x columns) */
 } dmb_cluster;
 
-/* A length of pipe, or a tool joint, that mud flows through and back along. */
+/* Flow segment: a length of pipe, or a tool joint, with its annulus. */
 typedef struct dmb_flow_piece {
     double from, length;     /* [m] along the string */
     double diameter[2];      /* [m] outer, inner */
@@ -227,28 +227,28 @@ typedef struct dmb_batch {
 } dmb_batch;
 
 typedef struct dmb_scene {
-    const struct dmb_model *model;     /* that it was made of and lives in: for names in messages */
+    const struct dmb_model *model;     /* the model that owns the scene; gives names for messages */
     size_t bytes;                      /* of the arena, this struct included */
-    int32_t features;                  /* DMB_FEATURE_... that the scene really has: asked for and described */
-    int32_t damped, arms;              /* 1: some element has a damping time, stands off its nodes by rigid arms */
+    int32_t features;                  /* DMB_FEATURE_... that are both requested and described */
+    int32_t damped, arms;              /* 1: some element has a damping time; has rigid arms to its nodes */
     int32_t beams_only;                /* 1: every element has two six-DOF nodes */
-    int32_t curved, curved_reserved;   /* 1: some element has the mass of bent ones */
-    const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
+    int32_t curved, curved_reserved;   /* 1: some element has the mass matrix of curved elements */
+    const struct dmb_kernels *kernels; /* loops of a step, for the vector width of the processor */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t added_mass_count, added_reserved;
-    uint32_t inside_count;   /* of the sites the last ones, inside elements */
-    uint32_t sites_in_order; /* of the sites on nodes the first ones, in the order of these */
+    uint32_t inside_count;   /* contact points inside elements, the last ones of `sites` */
+    uint32_t sites_in_order; /* leading contact points in the order of their nodes */
     uint32_t site_count, axial_torsional_site_count, drive_count, load_count, bit_count, time_function_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */
     uint32_t free_count, prescribed_count, constrained_count;
-    uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
+    uint32_t velocity_count; /* row_count, or 0 if all initial velocities are 0 */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count, rotor_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
     uint32_t unilateral_count; /* laws of joints, then springs, where any of them may open; else 0 */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
-    uint32_t constraint_row_count;                   /* room of all constraints */
+    uint32_t constraint_row_count;                   /* rows of all constraints, unused ones included */
     uint32_t constraint_node_count;                  /* length of cluster_nodes */
     uint32_t cluster_column_count;                   /* length of cluster_columns */
     uint32_t reduced_count;                          /* nodes of jointed chains */
@@ -280,14 +280,14 @@ typedef struct dmb_scene {
     uint8_t *solved_row;          /* 1 where a row is an unknown: free and not moved by a MOTION drive, shape (row) */
     uint32_t *constrained_node;   /* rows with solved_row 0: node and row within its block, shape (constrained_count) */
     uint32_t *constrained_component;
-    double *weight_mass;   /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
+    double *weight_mass;   /* [kg] gravitational mass less buoyancy, shape (node) */
     double *weight_moment; /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3), with rigid_masses
                               and the +- rho A L^2/12 of the cubic shape (sum of both sides) */
     double *node_damping;  /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
-                              integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
+                              integrals of 1, x, x^2 over the pipe length of the node, shape (node, 5) */
 
-    double *displaced;     /* [m3, kg m per kg/m3 = m4] weight_mass and the x of weight_moment that a fluid of density 1
-                              takes off, shape (node, 2); none without has_density_input */
+    double *displaced; /* [m3, kg m per kg/m3 = m4] reduction of weight_mass and of the x of weight_moment by a fluid of
+                          density 1, shape (node, 2); none without has_density_input */
     double *damped_length; /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose damping a node carries, shape
                               (node, 3); none without has_damping_input */
 
@@ -314,9 +314,11 @@ typedef struct dmb_scene {
     dmb_site *sites;
     double site_mobility; /* [m/kg] largest length times mobility of a site */
     dmb_axial_torsional_site *axial_torsional_sites;
-    uint32_t *near_contact; /* contact point on a node, or the nearest along its chain and across joints, that its depth
-                            is known from; DMB_NONE: none; shape (node), of a curved hole */
-    dmb_scene_point *inside; /* sections of the sites inside elements, element by element, shape (inside_count) */
+    uint32_t
+        *near_contact; /* contact point on the node, or the nearest along its chain and across joints, whose measured
+                          depth is the initial guess of the node's; DMB_NONE: none; shape (node), of a curved hole */
+    dmb_scene_point
+        *inside; /* cross-sections of the contact points inside elements, element by element, shape (inside_count) */
 
     /* actions */
     dmb_scene_drive *drives;
@@ -324,7 +326,7 @@ typedef struct dmb_scene {
     dmb_gain_table *gain_tables; /* by drive */
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
-    dmb_time_function *time_functions; /* the model's own; of a sim with inputs, theirs behind them */
+    dmb_time_function *time_functions; /* the model's; in a sim with inputs followed by those of the inputs */
     dmb_scene_input *inputs;
     dmb_scene_point *load_points;
     dmb_scene_spring *springs;
@@ -334,8 +336,8 @@ typedef struct dmb_scene {
     dmb_scene_stuck *stuck;
     dmb_flow_piece *flow_pieces; /* from the rig end on, shape (flow_count) */
     double *flow_element;        /* [N] pull of the mud on elements, towards the rig, shape (element); only with flow */
-    double *flow_node; /* [N, N m] likewise on nodes, and times its place x in the node's frame, elements and all
-                          that is rigid with it; shape (node, 2) */
+    double *flow_node; /* [N, N m] on nodes: the force, and the force times its position x in the node's frame, for
+                          elements and rigid parts; shape (node, 2) */
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;
@@ -385,13 +387,13 @@ static inline void dmb_node_damping_of(const double damped[3], double axial, dou
     for (int k = 0; k < 3; k++) damping[2 + k] = lateral * damped[k];
 }
 
-/* Global row of number i of what is held. */
+/* Global row of constrained row i. */
 static inline uint32_t dmb_constrained_row(const dmb_scene *scene, uint32_t i)
 {
     return scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i];
 }
 
-/* True if places of contact keep bristles from step to step. */
+/* True if contact points have bristle deflections as state. */
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {
     return dmb_friction_has_memory(&scene->friction_law);
@@ -403,40 +405,41 @@ static inline int32_t dmb_scene_has_touch(const dmb_scene *scene)
     return scene->normal_law.kind == DMB_NORMAL_KELVIN_VOIGT;
 }
 
-/* [1/kg] J M^-1 J^T of the normal force of a contact site, by the mass beside it: model/scene. */
+/* [1/kg] J M^-1 J^T of the normal force of a contact point, from the adjacent mass: model/scene. */
 double dmb_site_mobility(const dmb_scene *scene, uint32_t site);
 
-/* Sites on nodes, which come before those inside elements. */
+/* Number of contact points on nodes; those inside elements follow. */
 static inline uint32_t dmb_node_sites(const dmb_scene *scene)
 {
     return scene->site_count - scene->inside_count;
 }
 
-/* 1: the site is inside an element; its node is the near one, its offset the way from there along the unbent pipe. */
+/* 1: the contact point is inside an element. Its node is the near one, its offset [m] the distance from it along the
+ * straight pipe. */
 static inline int dmb_is_inside(const dmb_scene *scene, uint32_t site)
 {
     return site >= dmb_node_sites(scene) && site < scene->site_count;
 }
 
-/* [m] of a ring at a depth; in a hole of sections below 0 where it is too wide for it. */
+/* [m] Radial clearance of a contact point at a depth; negative if a section of the hole is narrower than the part. */
 static inline double dmb_site_clearance(const dmb_scene *scene, const dmb_site *site, double depth)
 {
     return scene->hole.pieces == 0 ? site->clearance : dmb_hole_radius(&scene->hole, depth) - site->radius;
 }
 
-/* The rate of the mud that flows, with losses of the pieces and pulls on elements and nodes that follow from it. All of
- * these are the scene's own. O(pieces). */
+/* Sets the flow rate, the pressure losses of the flow segments, and the resulting axial forces on elements and nodes,
+ * in this scene only. O(segments). */
 void dmb_scene_set_flow(dmb_scene *scene, double rate);
-/* Pulls on elements and nodes by the losses of the pieces. */
+/* Computes the axial forces on elements and nodes from the losses of the flow segments. */
 void dmb_scene_fill_pulls(dmb_scene *scene);
 
-/* The scene with dense matrices for all clusters. Modes, responses and buckling are made in independent coordinates, of
- * which there is a dense matrix R; steps and statics of large clusters do without it. */
+/* The scene with dense matrices for all constraint components. Modes, responses and buckling use independent
+ * coordinates with a dense matrix R; steps and statics of large components do not. */
 
-/* Places the storage of clusters one after the other, none for sparse ones, and counts it in the scene. False where a
+/* Assigns consecutive storage to the constraint components, none to sparse ones, and counts it in the scene. False if a
  * size overflows. */
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene);
-/* After dmb_scene_number_blocks: scene->dense, NULL without sparse clusters and where one is too large. DMB_OK,
+/* After dmb_scene_number_blocks: scene->dense, NULL without sparse components or if one is too large. DMB_OK,
  * DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
 int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator);
 /* NULL is fine. */
@@ -444,23 +447,23 @@ void dmb_scene_release_dense(const dmb_scene *dense, const dmb_allocator *alloca
 
 /* Blocks of the chains that joints connect. */
 
-/* After everything else of the scene is filled: columns and places of the clusters' nodes, jointed chains, blocks,
- * pattern and links. Does nothing without clusters. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, with no pattern
- * left. */
+/* After all other parts of the scene are filled: columns and positions of the components' nodes, jointed chains,
+ * blocks, pattern and off-diagonal blocks. Does nothing without components. Errors: DMB_ERR_NO_MEMORY,
+ * DMB_ERR_TOO_LARGE, with no pattern left. */
 int32_t dmb_scene_number_blocks(dmb_scene *scene, const dmb_allocator *allocator);
 
-/* Joints that are bridges: without one of them the parts beyond it hang together with nothing else, neither by joints
- * nor by the ground. */
+/* Joints that are bridges: if one of them is removed, the parts beyond it are connected to the ground by no other path.
+ */
 
-/* beyond (shape (constraint_count)): of a bridge the node on the side that the ground is not on, else DMB_NONE. The
- * equations of couplings and callbacks connect all their nodes and the ground; those of joint drives go with their
+/* beyond (shape (constraint_count)): for a bridge, its node on the side away from the ground, else DMB_NONE. The
+ * equations of couplings and callbacks connect all their nodes and the ground; those of joint drives count with their
  * joint. Tarjan, A note on finding the bridges of a graph, 1974. Linear. DMB_OK, DMB_ERR_NO_MEMORY. */
 int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator, uint32_t *beyond);
 
-/* Rings that were described to meet the wall and cannot: a support holds them sideways. */
+/* Contact points that cannot reach the wall, because a support constrains them laterally. */
 
-/* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
- * DMB_NONE: none. */
+/* First index >= `from` of a body or bit (bodies first, then bits) whose contact point is constrained laterally, and
+ * the text of the warning; DMB_NONE: none. */
 uint32_t dmb_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 #endif

@@ -79,24 +79,24 @@ uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
     const dmb_linear *linear = group->stiffness->linear;
     const dmb_linear_matrix *M = &linear->mass, *C = &linear->damping, *K = &linear->stiffness;
     const dmb_scene *scene = &linear->scene;
-    dmb_response_job job = {.used = group->used,
-                            .columns = columns,
-                            .stride = group->columns,
-                            .layout = &scene->layout,
-                            .diagonal = blocks(M->diagonal, C->diagonal, K->diagonal),
-                            .lower = blocks(M->lower, C->lower, K->lower),
-                            .upper = blocks(M->upper, C->upper, K->upper),
-                            .solved = scene->solved_row,
-                            .structural_damping = group->stiffness->structural_damping,
-                            .sides = group->sides,
-                            .work = group->work};
+    dmb_response_args args = {.used = group->used,
+                              .columns = columns,
+                              .stride = group->columns,
+                              .layout = &scene->layout,
+                              .diagonal = blocks(M->diagonal, C->diagonal, K->diagonal),
+                              .lower = blocks(M->lower, C->lower, K->lower),
+                              .upper = blocks(M->upper, C->upper, K->upper),
+                              .solved = scene->solved_row,
+                              .structural_damping = group->stiffness->structural_damping,
+                              .sides = group->sides,
+                              .work = group->work};
     uint32_t bad = 0;
-    for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) job.omega[l] = group->omega[l < group->used ? l : group->used - 1];
+    for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) args.omega[l] = group->omega[l < group->used ? l : group->used - 1];
     for (uint32_t c = 0; c < scene->chain_count; c++) {
-        job.first = scene->chains[c].first;
-        job.count = scene->chains[c].count;
-        scene->kernels->responses(&job);
-        bad |= job.bad;
+        args.first = scene->chains[c].first;
+        args.count = scene->chains[c].count;
+        scene->kernels->responses(&args);
+        bad |= args.bad;
     }
     return bad;
 }

@@ -335,7 +335,7 @@ typedef struct dmb_dynamic_group {
     uint32_t columns;              /* capacity for right-hand sides of each frequency */
     uint32_t used;                 /* frequencies */
     double omega[DMB_FREQUENCIES]; /* [rad/s] */
-    double *sides, *work;          /* as in dmb_response_job */
+    double *sides, *work;          /* as in dmb_response_args */
     void *block;
     size_t block_size;
 } dmb_dynamic_group;

@@ -25,7 +25,7 @@ static void count_parts(const dmb_scene *scene, dmb_check_report *report)
     report->structural_joints = scene->structural_joint_count;
 }
 
-_Static_assert(DMB_JOINT_SCHOENFLIES < sizeof(((dmb_check_report *)0)->joints) / sizeof(uint32_t),
+_Static_assert(DMB_JOINT_KINDS <= sizeof(((dmb_check_report *)0)->joints) / sizeof(uint32_t),
                "every kind of joint has its count in the report");
 
 static void count_joints(const dmb_sim *sim, dmb_check_report *report)

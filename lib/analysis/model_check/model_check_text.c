@@ -4,6 +4,7 @@
 #include "analysis/model_check/model_check.h"
 #include "base/number.h"
 #include "base/sized_struct.h"
+#include "constraint/joint.h"
 #include "sim/access.h"
 
 enum { NAME_WIDTH = 22, NUMBER_WIDTH = 10 };
@@ -85,13 +86,13 @@ static void put_joints(sheet *s, const dmb_check_report *r)
 {
     const char *between = "   ";
     uint32_t count = 0;
-    for (int k = 0; k < 16; k++) count += r->joints[k];
+    for (int k = 0; k < DMB_JOINT_KINDS; k++) count += r->joints[k];
     begin_count(s, "joints", count);
-    for (int32_t k = 0; k <= 16; k++) {
-        const uint32_t here = k < 16 ? r->joints[k] : r->open_joints;
+    for (int32_t k = 0; k <= DMB_JOINT_KINDS; k++) {
+        const uint32_t here = k < DMB_JOINT_KINDS ? r->joints[k] : r->open_joints;
         if (here == 0) continue;
         put(s, between);
-        put(s, k < 16 ? dmb_joint_kind_name(k) : "and open");
+        put(s, k < DMB_JOINT_KINDS ? dmb_joint_kind_name(k) : "and open");
         put(s, " ");
         put_count(s, here);
         between = ", ";

@@ -68,8 +68,8 @@ void dmb_chain_follow(dmb_sim *sim, const dmb_chain *chain, const dmb_rigid_moti
 static uint32_t free_coordinates(const dmb_scene_joint *joint)
 {
     switch (joint->kind) {
-    case DMB_JOINT_POINT_ON_HOLE: return dmb_joint_free_mask(DMB_ROWS_POINT_ON_LINE);
-    case DMB_JOINT_DISTANCE: return dmb_joint_free_mask(DMB_ROWS_DISTANCE);
+    case DMB_JOINT_POINT_ON_HOLE: return dmb_joint_free_mask(DMB_JOINT_POINT_ON_LINE);
+    case DMB_JOINT_DISTANCE: return dmb_joint_free_mask(DMB_JOINT_DISTANCE);
     case DMB_JOINT_ROLLING:
     case DMB_JOINT_KNIFE_EDGE: return DMB_NO_FORM;
     default:

@@ -202,7 +202,7 @@ void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text
     dmb_constraint_text(sim->scene, (uint32_t)(c - sim->scene->constraints), &owner);
     if (c->kind == DMB_OF_JOINT) {
         const int locked = sim->joint_state[c->index] == DMB_JOINT_LOCKED;
-        const int32_t kind = locked ? (int32_t)DMB_ROWS_FIXED : sim->scene->joints[c->index].kind;
+        const int32_t kind = locked ? (int32_t)DMB_JOINT_FIXED : sim->scene->joints[c->index].kind;
         dmb_message_set(text, "%s: %s%s", owner.text, dmb_joint_row_name(kind, k), locked ? " (locked)" : "");
     } else if (c->kind == DMB_OF_CALLBACK) {
         dmb_message_set(text, "%s: row %u", owner.text, k);

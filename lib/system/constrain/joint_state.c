@@ -48,7 +48,7 @@ static int needs_angles(const dmb_scene *scene, uint32_t j)
 {
     const int32_t kind = scene->joints[j].kind;
     if ((dmb_joint_free_mask(kind) >> DMB_RZ & 1) == 0) return 0; /* RZ stays 0 */
-    return kind == DMB_ROWS_UNIVERSAL || acts_on_angles(scene, j);
+    return kind == DMB_JOINT_UNIVERSAL || acts_on_angles(scene, j);
 }
 
 /* Distance from 0 of the chord from a to b. */
@@ -87,7 +87,7 @@ static int32_t refuse_angle(dmb_sim *sim, uint32_t j, double s, double time)
     const double angle = dmb_atan2(sqrt(fmax(1.0 - s * s, 0.0)), s);
     dmb_message_set(&sim->message, "%s: |RZ| = %g rad at time %g, must be < %g; %s", owner.text, angle, time,
                     0.5 * DMB_PI - DMB_RIGHT_ANGLE_EDGE,
-                    sim->scene->joints[j].kind == DMB_ROWS_UNIVERSAL ? universal : other);
+                    sim->scene->joints[j].kind == DMB_JOINT_UNIVERSAL ? universal : other);
     return DMB_ERR_GEOMETRY;
 }
 
@@ -105,7 +105,7 @@ static int32_t refuse_flat(dmb_sim *sim, uint32_t j, double sine, double time)
 static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
-    const int rolls = joint->kind == DMB_ROWS_ROLLING, angles = needs_angles(sim->scene, j);
+    const int rolls = joint->kind == DMB_JOINT_ROLLING, angles = needs_angles(sim->scene, j);
     dmb_relative relative;
     if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !(rolls || angles)) return DMB_OK;
     dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
@@ -121,7 +121,7 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
 static int is_beyond_gimbal_singularity(const dmb_sim *sim, uint32_t j)
 {
     dmb_relative before, here;
-    if (sim->joint_state[j] != DMB_JOINT_ACTIVE || sim->scene->joints[j].kind != DMB_ROWS_UNIVERSAL) return 0;
+    if (sim->joint_state[j] != DMB_JOINT_ACTIVE || sim->scene->joints[j].kind != DMB_JOINT_UNIVERSAL) return 0;
     if (!acts_on_angles(sim->scene, j)) return 0;
     dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
     dmb_joint_motion_of(sim->scene, &sim->trial, j, &here, NULL);

@@ -18,7 +18,7 @@ typedef struct pose {
 } pose;
 
 /* The functions that are differentiated: rows of a kind; of a joint locked at `at`; the coordinates. */
-enum { LOCKED = DMB_ROWS_KINDS, COORDINATES = DMB_ROWS_KINDS + 1, ALL_KINDS = DMB_ROWS_KINDS + 2 };
+enum { LOCKED = DMB_JOINT_KINDS, COORDINATES = DMB_JOINT_KINDS + 1, ALL_KINDS = DMB_JOINT_KINDS + 2 };
 typedef struct joint {
     int32_t kind;
     double length;
@@ -60,7 +60,7 @@ static void rows_at(const joint *j, const pose *at, const double V[6], dmb_joint
     static const double near[2] = {0.0, 0.0};
     dmb_joint_coordinates c;
     memset(rows, 0, sizeof *rows);
-    if (j->kind < DMB_ROWS_KINDS) {
+    if (j->kind < DMB_JOINT_KINDS) {
         dmb_joint_rows_at(j->kind, j->length, at->R, at->p, V, rows);
     } else if (j->kind == LOCKED) {
         dmb_joint_locked_at(j->at.R, j->at.p, at->R, at->p, V, rows);
@@ -76,7 +76,7 @@ static void rows_at(const joint *j, const pose *at, const double V[6], dmb_joint
 
 static void tangent_at(const joint *j, const pose *at, const double f[6], double W[36])
 {
-    if (j->kind < DMB_ROWS_KINDS)
+    if (j->kind < DMB_JOINT_KINDS)
         dmb_joint_rows_tangent(j->kind, j->length, at->R, at->p, f, W);
     else if (j->kind == LOCKED)
         dmb_joint_locked_tangent(j->at.R, j->at.p, at->R, at->p, f, W);
@@ -207,8 +207,8 @@ static void rows_hold_what_is_not_free(void **state)
     static const double still[6] = {0.0};
     uint64_t seed = 73;
     (void)state;
-    for (int32_t kind = DMB_ROWS_FIXED; kind < DMB_ROWS_KINDS; kind++) {
-        if (kind > DMB_ROWS_POINT_ON_LINE && kind < DMB_ROWS_TRANSLATIONAL) continue; /* of other rows */
+    for (int32_t kind = DMB_JOINT_FIXED; kind < DMB_JOINT_KINDS; kind++) {
+        if (kind > DMB_JOINT_POINT_ON_LINE && kind < DMB_JOINT_TRANSLATIONAL) continue; /* of other rows */
         const uint32_t free = dmb_joint_free_mask(kind);
         dmb_joint_rows rows;
         for (int i = 0; i < ROUNDS; i++) {
@@ -242,16 +242,16 @@ static void counts_and_masks(void **state)
     static const double still[6] = {0.0};
     uint64_t seed = 74;
     (void)state;
-    for (int32_t kind = 0; kind < DMB_ROWS_KINDS; kind++) {
+    for (int32_t kind = 0; kind < DMB_JOINT_KINDS; kind++) {
         const pose at = draw_pose(&seed);
         dmb_joint_rows rows;
         dmb_joint_rows_at(kind, 0.7, at.R, at.p, still, &rows);
         assert_int_equal(dmb_joint_row_count(kind), count[kind]);
         assert_int_equal(dmb_joint_free_mask(kind), mask[kind]);
         assert_int_equal(rows.count, count[kind]);
-        if (kind == DMB_ROWS_ROLLING) assert_int_equal(rows.holonomic, 1);
-        if (kind == DMB_ROWS_KNIFE_EDGE) assert_int_equal(rows.holonomic, 0);
-        if (kind == DMB_ROWS_DISTANCE) check_close("distance", rows.value[0], dmb_vec3_norm(at.p) - 0.7, 1e-15);
+        if (kind == DMB_JOINT_ROLLING) assert_int_equal(rows.holonomic, 1);
+        if (kind == DMB_JOINT_KNIFE_EDGE) assert_int_equal(rows.holonomic, 0);
+        if (kind == DMB_JOINT_DISTANCE) check_close("distance", rows.value[0], dmb_vec3_norm(at.p) - 0.7, 1e-15);
     }
 }
 
@@ -263,9 +263,9 @@ static void distance_of_zero_and_knife_edge(void **state)
     const pose at = draw_pose(&seed);
     dmb_joint_rows rows;
     (void)state;
-    dmb_joint_rows_at(DMB_ROWS_DISTANCE, 2.0, at.R, zero, V, &rows);
+    dmb_joint_rows_at(DMB_JOINT_DISTANCE, 2.0, at.R, zero, V, &rows);
     assert_true(rows.value[0] == -2.0 && largest(6, rows.J[0]) == 0.0 && largest(6, rows.JV[0]) == 0.0);
-    dmb_joint_rows_at(DMB_ROWS_KNIFE_EDGE, 1.0, at.R, at.p, V, &rows);
+    dmb_joint_rows_at(DMB_JOINT_KNIFE_EDGE, 1.0, at.R, at.p, V, &rows);
     assert_true(rows.value[0] == 0.0 && dmb_vec6_dot(rows.J[0], V) == V[1] && largest(6, rows.JV[0]) == 0.0);
 }
 
@@ -283,7 +283,7 @@ static void locked_is_fixed_elsewhere(void **state)
         dmb_mat3_mul_nt(at.R, at0.R, R);
         dmb_vec3_sub(at.p, at0.p, p);
         dmb_joint_locked_at(at0.R, at0.p, at.R, at.p, still, &locked);
-        dmb_joint_rows_at(DMB_ROWS_FIXED, 1.0, R, p, still, &fixed);
+        dmb_joint_rows_at(DMB_JOINT_FIXED, 1.0, R, p, still, &fixed);
         assert_true(locked.count == 6 && locked.holonomic == 63);
         error = fmax(error, largest_difference(6, locked.value, fixed.value));
         dmb_joint_locked_at(at0.R, at0.p, at0.R, at0.p, still, &locked);
@@ -322,7 +322,7 @@ static void rolling_rows_are_the_velocity_at_the_lowest_point(void **state)
         double V[6], c[3] = {0.0}, v[3], speed[3], got[3];
         dmb_joint_rows rows;
         draw_n(&seed, 6, V);
-        dmb_joint_rows_at(DMB_ROWS_ROLLING, r, at.R, at.p, V, &rows);
+        dmb_joint_rows_at(DMB_JOINT_ROLLING, r, at.R, at.p, V, &rows);
         height_error = fmax(height_error, fabs(lowest_height(&at, r, c) - rows.value[0]));
         dmb_vec3_cross(V + 3, c, v);
         dmb_vec3_add(V, v, v);
@@ -339,7 +339,7 @@ static void rolling_rows_are_the_velocity_at_the_lowest_point(void **state)
 static double slip(const pose *at, double r, const double V[6], double rows_times_V[3])
 {
     dmb_joint_rows rows;
-    dmb_joint_rows_at(DMB_ROWS_ROLLING, r, at->R, at->p, V, &rows);
+    dmb_joint_rows_at(DMB_JOINT_ROLLING, r, at->R, at->p, V, &rows);
     for (int k = 0; k < 3; k++) rows_times_V[k] = dmb_vec6_dot(rows.J[k], V);
     return largest(3, rows_times_V);
 }
@@ -355,7 +355,7 @@ static void upright_disc(void **state)
     dmb_joint_rows rows;
     double s[3];
     (void)state;
-    dmb_joint_rows_at(DMB_ROWS_ROLLING, r, at.R, at.p, rolls, &rows);
+    dmb_joint_rows_at(DMB_JOINT_ROLLING, r, at.R, at.p, rolls, &rows);
     check_below("stands on the plane", rows.value[0], 1e-15);
     check_below("rolls", slip(&at, r, rolls, s), 1e-15);
     check_below("pivots", slip(&at, r, pivots, s), 1e-15);
@@ -404,10 +404,10 @@ static void rim_lying_flat(void **state)
     dmb_joint_rows rows;
     double W[36];
     (void)state;
-    dmb_joint_rows_at(DMB_ROWS_ROLLING, 0.5, at.R, at.p, V, &rows);
+    dmb_joint_rows_at(DMB_JOINT_ROLLING, 0.5, at.R, at.p, V, &rows);
     assert_true(rows.count == 3 && rows.value[0] == 0.25 && rows.J[0][0] == 1.0);
     assert_true(largest(12, rows.J[1]) == 0.0 && largest(12, rows.JV[1]) == 0.0 && largest(5, rows.J[0] + 1) == 0.0);
-    dmb_joint_rows_tangent(DMB_ROWS_ROLLING, 0.5, at.R, at.p, f, W);
+    dmb_joint_rows_tangent(DMB_JOINT_ROLLING, 0.5, at.R, at.p, f, W);
     assert_true(isfinite(largest(36, W)));
 }
 
@@ -486,10 +486,10 @@ static void half_turns_are_flips(void **state)
 {
     const double about[3][6] = {{0, 0, 0, PI, 0, 0}, {0, 0, 0, 0, PI, 0}, {0, 0, 0, 0, 0, PI}};
     (void)state;
-    for (int32_t kind = DMB_ROWS_FIXED; kind < DMB_ROWS_KINDS; kind++) {
+    for (int32_t kind = DMB_JOINT_FIXED; kind < DMB_JOINT_KINDS; kind++) {
         const uint32_t free = dmb_joint_free_mask(kind);
-        const int keeps_x = (free & 48U) == 0 && kind != DMB_ROWS_POINT_ON_HOLE;
-        const int keeps_y = (free & 56U) == 0 && kind != DMB_ROWS_POINT_ON_HOLE;
+        const int keeps_x = (free & 48U) == 0 && kind != DMB_JOINT_POINT_ON_HOLE;
+        const int keeps_y = (free & 56U) == 0 && kind != DMB_JOINT_POINT_ON_HOLE;
         for (int i = 0; i < 3; i++) {
             const pose at = pose_of(about[i]);
             const int flipped = i == 0 ? keeps_y : keeps_x;
@@ -498,7 +498,7 @@ static void half_turns_are_flips(void **state)
             if (!flipped) assert_true(angle == 0.0);
         }
     }
-    assert_true(dmb_joint_flip(DMB_ROWS_UNIVERSAL, pose_of(about[1]).R) == 0.0);
+    assert_true(dmb_joint_flip(DMB_JOINT_UNIVERSAL, pose_of(about[1]).R) == 0.0);
 }
 
 /* From a right angle on; and never where the rows hold and the free coordinates are anything. */
@@ -506,7 +506,7 @@ static void flips_begin_at_a_right_angle(void **state)
 {
     uint64_t seed = 79;
     (void)state;
-    for (int32_t kind = DMB_ROWS_FIXED; kind < DMB_ROWS_KINDS; kind++) {
+    for (int32_t kind = DMB_JOINT_FIXED; kind < DMB_JOINT_KINDS; kind++) {
         const uint32_t free = dmb_joint_free_mask(kind);
         for (int i = 0; i < ROUNDS; i++) {
             double c[6];
@@ -518,9 +518,9 @@ static void flips_begin_at_a_right_angle(void **state)
         const double x[6] = {0, 0, 0, i * PI / 180.0, 0, 0}, z[6] = {0, 0, 0, 0, i * PI / 180.0, 0};
         if (i == 90) continue;
         const double want = i < 90 ? 0.0 : i * PI / 180.0;
-        assert_true(fabs(dmb_joint_flip(DMB_ROWS_FIXED, pose_of(x).R) - want) < 1e-12);
-        assert_true(fabs(dmb_joint_flip(DMB_ROWS_REVOLUTE, pose_of(z).R) - want) < 1e-12);
-        assert_true(dmb_joint_flip(DMB_ROWS_REVOLUTE, pose_of(x).R) == 0.0);
+        assert_true(fabs(dmb_joint_flip(DMB_JOINT_FIXED, pose_of(x).R) - want) < 1e-12);
+        assert_true(fabs(dmb_joint_flip(DMB_JOINT_REVOLUTE, pose_of(z).R) - want) < 1e-12);
+        assert_true(dmb_joint_flip(DMB_JOINT_REVOLUTE, pose_of(x).R) == 0.0);
     }
 }
 

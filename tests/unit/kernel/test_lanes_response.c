@@ -96,7 +96,7 @@ typedef struct solution {
 static uint32_t solve_group(uint32_t lanes, const chain *c, uint32_t from, uint32_t used, solution *out)
 {
     static double work[NUMBERS * PARTS];
-    dmb_response_job args = {.count = BLOCKS,
+    dmb_response_args args = {.count = BLOCKS,
                              .used = used,
                              .columns = SIDES,
                              .stride = SIDES + 1,

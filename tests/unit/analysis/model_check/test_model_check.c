@@ -303,7 +303,7 @@ static void text_of_any_size(void **state)
 static void every_row_has_a_name(void **state)
 {
     (void)state;
-    for (int32_t kind = 0; kind < DMB_ROWS_KINDS; kind++) {
+    for (int32_t kind = 0; kind < DMB_JOINT_KINDS; kind++) {
         assert_string_not_equal(dmb_joint_kind_name(kind), "joint");
         for (uint32_t row = 0; row < 8; row++) {
             const int named = strcmp(dmb_joint_row_name(kind, row), "row") != 0;
@@ -311,7 +311,7 @@ static void every_row_has_a_name(void **state)
         }
     }
     assert_string_equal(dmb_joint_kind_name(-1), "joint");
-    assert_string_equal(dmb_joint_kind_name(DMB_ROWS_KINDS), "joint");
+    assert_string_equal(dmb_joint_kind_name(DMB_JOINT_KINDS), "joint");
     assert_string_equal(dmb_joint_row_name(-1, 0), "row");
 }
 
@@ -323,9 +323,9 @@ static void rotations_are_named_by_their_axis(void **state)
     for (int axis = 0; axis < 3; axis++) {
         const double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, p[3] = {0.0, 0.0, 0.0}, V[6] = {0.0};
         dmb_joint_rows rows;
-        dmb_joint_rows_at(DMB_ROWS_FIXED, 1.0, R, p, V, &rows);
+        dmb_joint_rows_at(DMB_JOINT_FIXED, 1.0, R, p, V, &rows);
         for (uint32_t k = 3; k < 6; k++) {
-            const int ours = strcmp(dmb_joint_row_name(DMB_ROWS_FIXED, k), name[axis]) == 0;
+            const int ours = strcmp(dmb_joint_row_name(DMB_JOINT_FIXED, k), name[axis]) == 0;
             assert_true((fabs(rows.J[k][3 + axis]) > 0.5) == ours);
         }
     }
