@@ -71,7 +71,7 @@ typedef struct dmb_drive_variables {
     X(double, axial_torsional_bristle, 2 * pb, NUMBERS) /* [m] */                                                     \
     X(int32_t, axial_torsional_sticks, pb, FLAGS) /* [-] */                                                           \
     /* system/assemble/drives, from time functions and velocity: */                                                   \
-    X(dmb_drive_variables, drives, d, NUMBERS)  /* six numbers of each drive */                                       \
+    X(dmb_drive_variables, drives, d, NUMBERS)  /* state of each drive */                                             \
     X(double, actuator, 4 * act, NUMBERS)       /* [N, N m] dmb_actuator_flow of drives with one:                     \
                                                    system/assemble/actuators */                                       \
     X(double, load_factor, load, NUMBERS)       /* [-] time function of each load */                                  \

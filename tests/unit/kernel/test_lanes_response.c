@@ -97,17 +97,17 @@ static uint32_t solve_group(uint32_t lanes, const chain *c, uint32_t from, uint3
 {
     static double work[NUMBERS * PARTS];
     dmb_response_args args = {.count = BLOCKS,
-                             .used = used,
-                             .columns = SIDES,
-                             .stride = SIDES + 1,
-                             .layout = &c->layout,
-                             .diagonal = {c->M[0], c->C[0], c->K[0]},
-                             .lower = {c->M[1], c->C[1], c->K[1]},
-                             .upper = {c->M[2], c->C[2], c->K[2]},
-                             .solved = c->solved,
-                             .structural_damping = eta,
-                             .sides = out->sides[0][0][0],
-                             .work = work};
+                              .used = used,
+                              .columns = SIDES,
+                              .stride = SIDES + 1,
+                              .layout = &c->layout,
+                              .diagonal = {c->M[0], c->C[0], c->K[0]},
+                              .lower = {c->M[1], c->C[1], c->K[1]},
+                              .upper = {c->M[2], c->C[2], c->K[2]},
+                              .solved = c->solved,
+                              .structural_damping = eta,
+                              .sides = out->sides[0][0][0],
+                              .work = work};
     memset(out, 0, sizeof *out);
     for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) {
         const uint32_t at = from + (l < used ? l : used - 1);
