@@ -55,6 +55,7 @@ class Library {
     _begin(exports) {
         this.exports = exports;
         this._refresh();
+        this._cell = this._allocate(8); // for destroy, which never fails
     }
 
     /** Elements that are computed at once: 2 with SIMD, else 1. Results are the same. */
@@ -319,11 +320,8 @@ class Handle {
 
     _destroy(destroy) {
         if (this._handle) {
-            this.library._scratch((take) => {
-                const at = take(4);
-                this.library.view.setUint32(at, this._handle, true);
-                this.library._run(destroy, at);
-            });
+            this.library.view.setUint32(this.library._cell, this._handle, true);
+            this.library._run(destroy, this.library._cell);
         }
         this._handle = 0;
     }

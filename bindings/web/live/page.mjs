@@ -33,7 +33,10 @@ async function sources() {
 class Live {
     constructor(record) {
         Object.assign(this, { record, frames: 0, running: false, ready: false, last: null, waiting: [] });
-        this.view = new View(byId("view"), (text) => say(text, true));
+        this.view = new View(byId("view"), (text) => {
+            if (text) say(text, true);
+            this.redraw = true;
+        });
         this.view.setStrings(record.strings, record.with_bit);
         this.traces = record.traces.map((trace) => {
             const place = document.createElement("div");
@@ -88,12 +91,7 @@ class Live {
                 this.setRunning(data.running);
                 this.view.setFrame(data);
                 for (const [time, ...values] of data.samples) this.addSample(time, values);
-                this.redraw = true;
-                this.showInputs(data.inputs);
-                byId("restore").disabled = data.kept === null;
-                byId("restore").textContent = data.kept === null ? word("Restore") : word("Restore {time} s", { time: data.kept.toFixed(2) });
-                const pace = data.running && data.pace ? `, ${word("{pace} times real time", { pace: data.pace < 10 ? data.pace.toFixed(1) : data.pace.toFixed(0) })}` : "";
-                byId("clock").innerHTML = `<b>${data.time.toFixed(3)} s</b>${pace}${data.hash ? `, ${word("hash {hash}", { hash: data.hash })}` : ""}`;
+                this.redraw = true; // several may come between two pictures
                 if (data.hash) this.settle(data);
             },
             failed({ what, reason, advice, time }) {
@@ -157,9 +155,19 @@ class Live {
             at += trace.trace.lines.length;
             trace.draw();
         }
+        this.texts(this.last);
         byId("view").querySelector(".legend b").textContent = `${shown(this.view.force / 1000)} kN/m`;
         this.frames += 1;
         document.body.dataset.frames = this.frames;
+    }
+
+    /** Sliders, buttons and clock of a state. */
+    texts({ inputs, kept, running, pace, time, hash }) {
+        this.showInputs(inputs);
+        byId("restore").disabled = kept === null;
+        byId("restore").textContent = kept === null ? word("Restore") : word("Restore {time} s", { time: kept.toFixed(2) });
+        const fast = running && pace ? `, ${word("{pace} times real time", { pace: pace < 10 ? pace.toFixed(1) : pace.toFixed(0) })}` : "";
+        byId("clock").innerHTML = `<b>${time.toFixed(3)} s</b>${fast}${hash ? `, ${word("hash {hash}", { hash })}` : ""}`;
     }
 
     /** Exaggeration by the length that is shown, unless the reader chose one. */
@@ -295,16 +303,16 @@ class Live {
     }
 
     pointers() {
-        const canvas = byId("view").querySelector("canvas"), down = new Map();
+        const scene = byId("view").querySelector(".scene"), down = new Map(); // the canvas in it may be replaced
         const spread = () => {
             const [a, b] = [...down.values()];
             return Math.hypot(a.x - b.x, a.y - b.y);
         };
-        canvas.addEventListener("pointerdown", (event) => {
-            canvas.setPointerCapture(event.pointerId);
+        scene.addEventListener("pointerdown", (event) => {
+            scene.setPointerCapture(event.pointerId);
             down.set(event.pointerId, { x: event.clientX, y: event.clientY });
         });
-        canvas.addEventListener("pointermove", (event) => {
+        scene.addEventListener("pointermove", (event) => {
             const before = down.get(event.pointerId);
             if (!before) return;
             const wide = down.size === 2 ? spread() : 0;
@@ -312,8 +320,8 @@ class Live {
             if (down.size === 2) this.zoom(wide / Math.max(spread(), 1));
             else this.turn(0.008 * (event.clientX - before.x), 0.008 * (event.clientY - before.y));
         });
-        for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => down.delete(event.pointerId));
-        canvas.addEventListener("wheel", (event) => {
+        for (const name of ["pointerup", "pointercancel"]) scene.addEventListener(name, (event) => down.delete(event.pointerId));
+        scene.addEventListener("wheel", (event) => {
             event.preventDefault();
             this.zoom(Math.exp(0.0012 * event.deltaY));
         }, { passive: false });

@@ -17,9 +17,9 @@ function widened(name, structs, from, to) {
     return structs.map((one) => (one.diameter > 0 ? { ...one, diameter: name === "add_wall" ? to : one.diameter * (to / from) } : one));
 }
 
-/** The model of the record, compiled. diameter [m]: of the hole, instead of the recorded one. */
-export function modelOf(library, record, diameter) {
-    const model = library.model();
+/** The model of the record, compiled. diameter [m]: of the hole, instead of the recorded one. owner.model: the model, of a failure too. */
+export function modelOf(library, record, diameter, owner = {}) {
+    const model = (owner.model = library.model());
     let generation = 0;
     for (const [name, given, count] of record.calls) {
         const structs = widened(name, revived(given, generation), record.diameter, diameter);
@@ -40,9 +40,15 @@ export function modelOf(library, record, diameter) {
 
 /** Model and sim at the beginning of the run: in the static equilibrium where the scene asks for it. */
 export function begin(library, record, diameter) {
-    const { model, generation } = modelOf(library, record, diameter);
-    const sim = model.sim(revived(record.sim, generation));
-    if (record.static) sim.analysisStatic(revived(record.static, generation));
-    const inputs = record.controls.map((one) => model.findInput(one.name));
-    return { model, sim, inputs, place: (one) => revived(one, generation) };
+    const made = {};
+    try {
+        const { model, generation } = modelOf(library, record, diameter, made);
+        const sim = (made.sim = model.sim(revived(record.sim, generation)));
+        if (record.static) sim.analysisStatic(revived(record.static, generation));
+        const inputs = record.controls.map((one) => model.findInput(one.name));
+        return { model, sim, inputs, place: (one) => revived(one, generation) };
+    } catch (error) { // gives back the memory of what was made
+        if (!library.broken) for (const one of [made.sim, made.model]) one?.destroy();
+        throw error;
+    }
 }

@@ -3,6 +3,7 @@
 import { word } from "./words.mjs";
 
 const SIDES = 14, RINGS = 48, LONGITUDINAL = 12;
+const RESTORED = 2000; // [ms] within which a browser restores a lost context
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -39,15 +40,27 @@ export class Camera {
 
 export class View {
     constructor(place, report) {
-        Object.assign(this, { place, camera: new Camera(), exaggeration: 1, force: 1 });
+        Object.assign(this, { place, report, camera: new Camera(), exaggeration: 1, force: 1 });
         this.canvas = place.querySelector("canvas");
+        this.canvas.addEventListener("webglcontextlost", (event) => {
+            event.preventDefault(); // asks for it to be restored, which a browser does at once or never
+            setTimeout(() => this.gl?.isContextLost() && this.flat(), RESTORED);
+        });
+        this.canvas.addEventListener("webglcontextrestored", () => (this.setUp(this.gl) ? this.report("") : this.flat()));
         this.gl = this.begin3();
-        if (!this.gl) {
-            this.pen = this.canvas.getContext("2d");
-            report(word("This browser has no WebGL: the string is drawn as lines."));
+        if (!this.gl) this.flat();
+    }
+
+    /** Lines on a 2D canvas. A canvas that had a context of WebGL has no other, so a new one takes its place. */
+    flat() {
+        this.gl = null;
+        this.pen = this.canvas.getContext("2d");
+        if (!this.pen) {
+            const other = this.canvas.cloneNode();
+            this.canvas.replaceWith(other);
+            Object.assign(this, { canvas: other, pen: other.getContext("2d") });
         }
-        this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-        this.canvas.addEventListener("webglcontextrestored", () => this.setUp(this.gl));
+        this.report(word("This browser has no WebGL: the string is drawn as lines."));
     }
 
     begin3() {
@@ -110,10 +123,10 @@ export class View {
         this.wholeLength = Math.hypot(...sub(this.line[this.line.length - 1].at, this.line[0].at));
     }
 
-    /** [-] that shows the hole about a fourteenth as wide as the picture is long. */
+    /** [-] that shows the hole about a fourteenth as wide as the picture is long; without a hole, which bounds what strings do, 1. */
     usualExaggeration() {
-        const radius = this.line[0].radius || 0.05;
-        return Math.max(1, this.camera.length / 28 / radius);
+        const { radius } = this.line[0];
+        return radius ? Math.max(1, this.camera.length / 28 / radius) : 1;
     }
 
     /** Looks at the whole string, or at one end of it. */
@@ -138,7 +151,7 @@ export class View {
     setFrame({ base, offset, turn, force }) {
         Object.assign(this, { base, offset, turn, loads: force });
         const last = 3 * this.bitRing;
-        this.tip = [base[last], base[last + 1], base[last + 2]];
+        this.tip = this.line[0].radius ? [base[last], base[last + 1], base[last + 2]] : this.point(this.bitRing);
         if (this.where === "bit" && this.followed) this.camera.centre = this.camera.centre.map((x, k) => x + this.tip[k] - this.followed[k]);
         this.followed = this.tip;
         let most = 0;

@@ -38,15 +38,14 @@ async function load({ sources, record, memory }) {
 async function restart(diameter) {
     state.running = false;
     try {
-        if (!state.library || state.library.broken) {
-            state.run = null;
-            state.wasm ??= await compiled(state.sources);
-            state.library = await instantiate(state.wasm, { maximumMemory: state.memory });
+        if (state.library?.broken) Object.assign(state, { run: null, library: null });
+        state.library ??= await instance();
+        const { library, run } = await another(diameter), before = state.run; // what there was goes only when this has succeeded
+        if (library === state.library) {
+            before?.sim.destroy();
+            before?.model.destroy();
         }
-        const run = begin(state.library, state.record, diameter); // what there was goes only when this has succeeded
-        state.run?.sim.destroy();
-        state.run?.model.destroy();
-        Object.assign(state, { run, diameter, log: [], calls: 0, kept: null, until: Infinity, nextSample: -Infinity, hundredth: 0 });
+        Object.assign(state, { library, run, diameter, log: [], calls: 0, kept: null, until: Infinity, nextSample: -Infinity, hundredth: 0 });
         run.places = state.record.traces.flatMap((trace) => trace.lines.map((line) => ({ quantity: line.quantity, place: run.place(line.place) })));
         run.line = referenceLine(run);
         postMessage({ type: "ready", line: run.line, diameter: diameter ?? state.record.diameter, bytes: state.library.memory.buffer.byteLength, lanes: state.library.lanes });
@@ -54,8 +53,25 @@ async function restart(diameter) {
     } catch (error) {
         postMessage({ type: "failed", what: "start", reason: error.text ?? error.message, time: time(),
                       advice: state.run ? word("The scene before it continues.") : word("This scene cannot run in this browser.") });
-        if (state.run) frame(true);
+        if (state.run) guarded("frame", () => frame(true));
     }
+}
+
+/** The library in a memory of its own. */
+async function instance() {
+    state.wasm ??= await compiled(state.sources);
+    return instantiate(state.wasm, { maximumMemory: state.memory });
+}
+
+/** The beginning of the scene beside the run that there is. Where the memory does not hold both, it gets a memory of its own. */
+async function another(diameter) {
+    try {
+        return { library: state.library, run: begin(state.library, state.record, diameter) };
+    } catch (error) {
+        if (!state.run || error.statusName !== "DMB_ERR_NO_MEMORY") throw error;
+    }
+    const library = await instance();
+    return { library, run: begin(library, state.record, diameter) };
 }
 
 /** Quantities along all strings, one after the other. */

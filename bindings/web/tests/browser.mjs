@@ -4,6 +4,11 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
+/** Share of the pixels of the view that are not white. */
+export const INK = `(() => { const c = document.querySelector('#view canvas'), copy = document.createElement('canvas'); copy.width = c.width; copy.height = c.height;
+    const pen = copy.getContext('2d'); pen.drawImage(c, 0, 0); const p = pen.getImageData(0, 0, c.width, c.height).data; let ink = 0;
+    for (let i = 0; i < p.length; i += 4) if (p[i + 3] && p[i] + p[i + 1] + p[i + 2] < 740) ink += 1; return ink / (p.length / 4); })()`;
+
 export class Browser {
     static async start(more = []) {
         const made = new Browser();
