@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import tomllib
 import unittest
 import unittest.mock
 
@@ -15,8 +16,10 @@ from test_questions import LEVEL, WEIGHT, failure
 
 from drillmbd import scene
 from drillmbd.probability.cells import Cell, Map, paired
+from drillmbd.probability.draw import Draw
 from drillmbd.probability.sample import FAILED, SceneSample
 from drillmbd.scene.failure import KINDS
+from drillmbd.scene.overrides import by_number, key_of_path, path_of_key
 from drillmbd.sweep import settings_of, varied
 
 RIG = """[limits]
@@ -91,6 +94,27 @@ high = "6 kN"
                 scene.loads(LEVEL + RIG.replace("failure[0].limit", key) + PUSH)
 
 
+class FactorTest(FolderTest):
+    SCENE = LEVEL.replace('segment = {kind = "step5", x1 = "1 s", h1 = "10 mm/s"}',
+                          'segment = [{h0 = "10 mm/s"}, {kind = "per-revolution", of = "turning", h1 = "1 mm/s"}]') + PUSH + '''[[variability.process]]
+name = "speed of the feed"
+time_function = "feeding"
+how = "factor"
+correlation_time = "0.5 s"
+distribution = "normal"
+mean = 1
+deviation = 0.1
+'''
+
+    def test_a_segment_per_revolution_has_no_factor(self):
+        """Its values are known in a run only: refused once, before the first sample."""
+        said = self.ask("probability", self.scene, "--samples", 4, "--engine", "serial", status=2)
+        self.assertIn("speed of the feed: time function feeding: a segment of kind per-revolution cannot be multiplied", said)
+        self.assertIn('use how = "added"', said)
+        added = self.SCENE.replace('how = "factor"', 'how = "added"').replace("mean = 1\ndeviation = 0.1", 'mean = "0 mm/s"\ndeviation = "1 mm/s"')
+        self.assertEqual(len(Draw(scene.loads(added)).processes), 1)
+
+
 class DefaultTest(FolderTest):
     SCENE = LEVEL + failure("wall-pressure", width="20 mm")
 
@@ -121,6 +145,43 @@ class TogetherTest(FolderTest):
         for wrong, wanted in (("a & b=1 & 2 & 3", "3 values for 2 keys"), ("a &=1", "is no key"), ("& a=1", "is no key")):
             with self.assertRaisesRegex(ValueError, wanted):
                 varied(wrong)
+
+    def test_tables_by_their_names(self):
+        """time_function[feeding] is the item of the array with this name, in --vary of both commands and in [variability]."""
+        content = tomllib.loads(self.SCENE)
+        for key, number in (("time_function[feeding].segment.h1", "time_function[2].segment.h1"), ("string[rods].pipes[0].length", "string[0].pipes[0].length"),
+                            ("hole.diameter", "hole.diameter"), ("string[0].pipes.eccentricity", "string[0].pipes.eccentricity")):
+            self.assertEqual(by_number(key, content), number)
+            self.assertEqual(key_of_path(path_of_key(key)), key)
+        for key, wanted in (("time_function[feding].segment.h1", "no .*time_function.* is named feding; did you mean feeding"),
+                            ("time_function[zz].segment.h1", "possible are feeding, rock, turning"), ("string[rods].pipes[a].length", "none has a name.*string\\[0\\].pipes\\[0\\]"),
+                            ("hole[x].diameter", "none has a name"), ("nothing[x].y", "none has a name")):
+            with self.assertRaisesRegex(ValueError, wanted):
+                by_number(key, content)
+        for command in (("sweep", self.scene, "check"), ("probability", self.scene, "--samples", 10, "--engine", "serial")):
+            self.ask(*command, "--vary", "time_function[turning].segment.h1=60 rpm,80 rpm", "-o", self.folder / command[0])
+            said = self.ask(*command, "--vary", "time_function[turn].segment.h1=60 rpm,80 rpm", status=2)
+            self.assertIn("did you mean turning?", said)
+        saved = scene.load(self.folder / "probability" / "00002" / "scene.toml")
+        segments = [arguments for name, arguments in saved.model.calls if name == "add_time_function"][1]
+        self.assertAlmostEqual(segments[0]["h1"], 80.0 * math.pi / 30.0, 12)
+        said = self.ask("probability", self.scene, "--vary", "time_function[turning].segment.h1=60 rpm", "--vary", "time_function[1].segment.h1=70 rpm", status=2)
+        self.assertIn("each key once", said)
+        rock = '''[[variability.scatter]]
+name = "speed"
+key = "time_function[turning].segment.h1"
+distribution = "uniform"
+low = "60 rpm"
+high = "90 rpm"
+'''
+        made = scene.loads(self.SCENE + rock)
+        self.assertEqual(made.variability.scatters[-1].keys, ["time_function[1].segment.h1"])
+        self.assertTrue(made.same_as(scene.loads(scene.saves(made))))
+        with self.assertRaisesRegex(scene.SceneError, "no .*time_function.* is named turn; did you mean turning"):
+            scene.loads(self.SCENE + rock.replace("[turning]", "[turn]"))
+        (self.folder / "more.toml").write_text(self.SCENE + rock, encoding="utf-8")
+        said = self.ask("probability", self.folder / "more.toml", "--vary", "time_function[turning].segment.h1=60 rpm", status=2)
+        self.assertIn("each sample has a value of its own, of speed", said)
 
     def test_map(self):
         """One value for both keys, and one each."""

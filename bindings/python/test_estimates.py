@@ -6,6 +6,7 @@ eq:probability.subset-bias, eq:probability.form, eq:probability.sobol, eq:probab
 import math
 import sys
 import unittest
+import unittest.mock
 
 from shared_tests import needs
 
@@ -15,7 +16,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.stats import norm
 
-from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, effective, form, plan, sampled, sobol_indices
+from drillmbd.probability.estimates import Indices, Subset, Surrogate, clopper_pearson, counted, effective, form, plan, sampled, sobol_indices
 from drillmbd.probability.fields import Markov
 from drillmbd.probability.sampling import Points, drawn
 
@@ -235,6 +236,22 @@ class IndicesTest(unittest.TestCase):
         """Linear: shares of the variance; a group's is the sum of its numbers'."""
         found = sobol_indices(lambda numbers, z: z[:, 0] + z[:, 1] + 2.0 * z[:, 2], {"pair": 2, "one": 1}, 1024)
         self.assertLess(abs(found.total - [1.0 / 3.0, 2.0 / 3.0]).max(), 0.02)
+
+    def test_too_few_rows_are_named(self):
+        """A first-order index above the total one is an error of sampling, with the number of rows that would do."""
+        from drillmbd.probability import answer
+        for first, wanted in (([0.9, 0.2], 1), ([0.7, 0.2], 0)):
+            ends = np.array([[0.0, 1.0]] * 2)
+            made = answer.Answer.__new__(answer.Answer)
+            made.sample, made.asked, made.output = unittest.mock.MagicMock(), unittest.mock.MagicMock(), unittest.mock.Mock(summary={})
+            made.sample.draw.sizes, made.limit, made.scales = [0], 0, None
+            made.options = unittest.mock.Mock(indices=16)
+            found = Indices(["a", "b"], np.array(first), np.array([0.8, 0.3]), ends, ends, 64, 0)
+            with unittest.mock.patch.object(answer, "sobol_indices", return_value=found):
+                made._indices(unittest.mock.Mock())
+            self.assertEqual(made.output.note_text.call_count, wanted)
+            if wanted:
+                self.assertRegex(made.output.note_text.call_args[0][0], "16 rows are too few.*index of a is above.*--indices 64")
 
     def test_lost_rows(self):
         def margin(numbers, z):

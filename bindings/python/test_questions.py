@@ -303,6 +303,43 @@ class DemandTest(unittest.TestCase):
         found = demands.demand_of(one, np.append(ranked, [math.nan] * lost), np.zeros((220, 1)), ["x"], 0.95)
         self.assertIn("of the 200 of 220 samples that have one", found.sentence(0.95))
 
+    def test_weighted_percentiles(self):
+        """Samples of which some stand for several, as the runs of the question auto: the intervals hold the true percentile; equal weights give the
+        values of order statistics, and lost weight widens the interval to both sides."""
+        random, inside, spread = np.random.default_rng(11), {5: 0, 50: 0, 95: 0}, math.sqrt(1.09)
+        for _ in range(100):
+            soft = random.standard_normal(400)
+            run = soft + 0.3 * random.standard_normal(400)
+            near = soft > 1.2
+            taken = near | (random.random(400) < 0.25)
+            for percent in inside:
+                value, low, high = demands.weighted_percentile(run[taken], np.where(near, 1.0, 4.0)[taken], percent, 0.95)
+                self.assertTrue(low <= value <= high)
+                inside[percent] += low <= spread * stats.norm.ppf(percent / 100.0) <= high
+        self.assertGreaterEqual(min(inside.values()), 88, inside)
+        values, ones = random.standard_normal(200), np.ones(200)
+        for percent in inside:
+            found, plain = demands.weighted_percentile(values, ones, percent, 0.95), demands.percentile(np.sort(values), percent, 0.95)
+            self.assertEqual(found[0], plain[0])
+            self.assertEqual(found[0], demands.weighted_percentile(values, 3.0 * ones, percent, 0.95)[0])
+            ranks = [np.searchsorted(np.sort(values), one) for one in (*found[1:], *plain[1:])]
+            self.assertLessEqual(max(abs(ranks[0] - ranks[2]), abs(ranks[1] - ranks[3])), 4)
+            lost = demands.weighted_percentile(values, ones, percent, 0.95, 20.0)
+            self.assertTrue(lost[1] <= found[1] and lost[2] >= found[2])
+        self.assertEqual(demands.weighted_percentile(values, ones, 95, 0.95, 20.0)[2], math.inf)
+
+    def test_weighted_matters(self):
+        """A sample with the weight 2 counts as two of them."""
+        random = np.random.default_rng(3)
+        inputs = random.standard_normal((40, 2))
+        values, twice = inputs[:, 0] + random.standard_normal(40), np.where(np.arange(40) % 3, 1, 2)
+        a = demands.matters(values, inputs, ["x", "y"], twice.astype(float))
+        b = demands.matters(np.repeat(values, twice), np.repeat(inputs, twice, axis=0), ["x", "y"])
+        for one, other in zip(a, b):
+            self.assertEqual(one.name, other.name)
+            self.assertAlmostEqual(one.rank, other.rank, 12)
+        self.assertAlmostEqual(b[0].rank, stats.spearmanr(np.repeat(values, twice), np.repeat(inputs[:, 0], twice))[0], 12)
+
     def test_matters(self):
         rng = np.random.default_rng(2)
         inputs = rng.standard_normal((500, 3))
@@ -422,6 +459,20 @@ class MapTest(FolderTest):
         self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
         self.assertEqual(read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist(), before)  # nothing is computed again
 
+    def test_a_second_master(self):
+        """It is refused at once and changes nothing; afterwards the folder is free."""
+        from drillmbd.probability.study import Lock
+        folder = self.folder / "out"
+        folder.mkdir()
+        lock = Lock(folder / "map")
+        words = ("probability", self.scene, "-o", folder, "--vary", "hole.diameter=94 mm,98 mm", "--samples", 20, "--engine", "serial")
+        said = self.ask(*words, status=2)
+        self.assertIn("another run writes it now; wait for it, or give another --output folder", said)
+        self.assertNotIn("cell 1", said)
+        self.assertFalse((folder / "00001").exists())
+        lock.release()
+        self.assertIn("cell 2", self.ask(*words))
+
     def test_a_cell_that_cannot_be(self):
         out = self.ask("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20, "--engine", "serial", status=1)
         self.assertNotIn("Traceback", out)
@@ -481,6 +532,11 @@ class AutoTest(FolderTest):
         self.assertIn(f"{40 - len(rows)} samples computed", again)  # so few are all run
         summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
         self.assertAlmostEqual(summary["estimates"]["any failure"]["probability"], known, 12)
+        whole = json.loads((self.folder / "plain" / "summary.json").read_text(encoding="utf-8"))["demands"]
+        self.assertEqual(summary["demands"].keys(), whole.keys())
+        for name, demand in whole.items():
+            self.assertEqual([one["value"] for one in summary["demands"][name]["percentiles"].values()], [one["value"] for one in demand["percentiles"].values()])
+        self.assertIn("runs by their weights) P5", out)
         self.assertIn("Monte Carlo study", self.ask(
             "probability", self.scene, "--question", "auto", "--until", "30%", status=2))
 

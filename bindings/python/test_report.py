@@ -309,6 +309,17 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual([verdict_of(10.0, 5.0), verdict_of(10.0, 9.0), verdict_of(10.0, 11.0)], ["OK", "NEAR LIMIT", "OVER"])
         self.assertEqual([verdict_of(None, 5.0), verdict_of(10.0, None), verdict_of(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
 
+    def test_an_analysis_without_a_value(self):
+        """NaN of one analysis is never left out in silence."""
+        demand = verdict.Demand("x", "N", 10.0)
+        demand.add(math.nan, "first")
+        self.assertEqual((demand.tile().verdict, demand.tile().text), ("NOT COMPUTED", "first: no value"))
+        demand.add(5.0, "second")
+        self.assertEqual((demand.tile().verdict, demand.tile().value), ("NOT ASSESSED", "5 N"))
+        self.assertIn("without first: no value", str(demand.tile()))
+        demand.add(11.0, "third")
+        self.assertEqual(demand.tile().verdict, "OVER")
+
     def study(self, text, **more):
         made = report.Study(scene.loads(text), results.CommandOutput(None, "x.toml", scene.loads(text), "report", True))
         for name, value in more.items():

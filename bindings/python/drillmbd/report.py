@@ -217,7 +217,8 @@ class Study:
                 continue
             self.demands["pull" if row.hook_load > 0.0 else "push"].add(abs(row.hook_load), source)
             self.demands["torque"].add(row.torque, source)
-            self.demands["yield_stress"].add(strength * row.yield_share, source)
+            if not math.isnan(strength):
+                self.demands["yield_stress"].add(strength * row.yield_share, source)
             self.soft.append(source)
 
     def _yield_strength(self) -> float:

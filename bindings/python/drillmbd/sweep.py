@@ -10,6 +10,7 @@ import os
 import pathlib
 import re
 import time
+import tomllib
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -21,7 +22,7 @@ from .probability.study import code
 from .commands import QUESTIONS
 from .runner import carry_out
 from .scene import CannotSave, Scene, SceneError, saves
-from .scene.overrides import path_of_key
+from .scene.overrides import by_number, path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick", "elapsed_s", "identity")
@@ -67,6 +68,16 @@ def varied(text: str) -> tuple[str, list[Any]]:
         if len(keys) > 1 and len(_parts(value)) not in (1, len(keys)):
             raise ValueError(f"{text!r}: {value!r} has {len(_parts(value))} values for {len(keys)} keys; write one for all of them, or one each between &")
     return " & ".join(keys), listed
+
+
+def refuse_unnamed(keys: list[str], file: str) -> None:
+    """Refuses keys that name a table which the scene file does not have, before any case. Raises ValueError; faults of the file are those of each case."""
+    try:
+        content = tomllib.loads(pathlib.Path(file).read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError):
+        return
+    for key in keys:
+        by_number(key, content)
 
 
 def keys_of(text: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Verdicts on demands and limits: a tile of the report, a line of the command."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -50,8 +51,11 @@ class Demand:
     units: Units = SI                                             #: of the texts
 
     def add(self, value: float, source: str) -> None:
-        """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing."""
-        if value == value:
+        """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing. NaN counts as an analysis without a
+        result, so that the verdict is not OK."""
+        if math.isnan(value):
+            self.failed.append(phrase("{source}: no value", source=source))
+        else:
             self.found.append((max(0.0, value), source))
 
     @property

@@ -197,13 +197,13 @@ class Answer:
             if count >= asked.samples or asked.rule.met(asked.counted(column)):
                 return results
 
-    def say_demands(self, results: list[Result]) -> None:
-        """Percentiles and rank correlations of the demands."""
+    def say_demands(self, results: list[Result], weights: Any = None) -> None:
+        """Percentiles and rank correlations of the demands. weights: of the results, where they stand for different numbers of samples."""
         numpy = need("numpy")
         demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs", "margins"))
         for i, one in enumerate(self.asked.failures):
             found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence,
-                              margins[:, i] if one.name in self.sample.limits.names else None)
+                              margins[:, i] if one.name in self.sample.limits.names else None, weights)
             if found is None:
                 continue
             self.demands[one.name] = found
@@ -257,6 +257,10 @@ class Answer:
                                                                   *found.total_interval[i]))])
         self.output.summary["indices"] = {row[0]: {"first": row[1:4], "total": row[4:7]} for row in rows}
         self.output.summary["indices_lost_rows"] = found.lost
+        above = [found.names[i] for i in range(len(found.names)) if found.first[i] > found.total[i]]
+        if above:
+            self.output.note_text(f"{self.options.indices} rows are too few for these indices: the first-order index of {', '.join(above)} is above the total one, "
+                                  f"which contains it; ask --indices {4 * self.options.indices} or more")
         self.output.table("indices.csv", ["parameter", "first order", "low", "high", "total", "low", "high"], rows)
 
     # ---- The end -----------------------------------------------------------------------------------------------------

@@ -6,7 +6,8 @@ torque and drag predict, and with B+ and B- the shares of the others that fail i
 
     P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)
 
-is unbiased although torque and drag is a simpler model. Failures that only a run shows are predicted in no sample: B+ alone finds them."""
+is unbiased although torque and drag is a simpler model. Failures that only a run shows are predicted in no sample: B+ alone finds them. Percentiles of
+the demands are those of the runs by these weights (demands.weighted_percentile)."""
 from __future__ import annotations
 
 import math
@@ -132,6 +133,9 @@ class Auto(Answer):
             self._report_stages(name, soft, near, found[:, i], len(run))
         self._report_stages(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
         self._compare(margins, found, scale)
+        if results:
+            part = part_of(asked.samples)
+            self.say_demands(results, numpy.array([1.0 if near[one.number] or part >= 1.0 else 1.0 / part for one in results]))
         self.table(results)
 
     def _report_stages(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:

@@ -6,6 +6,7 @@ import argparse
 import itertools
 import math
 import re
+import tomllib
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,13 +17,14 @@ from ..exit_status import FAILED, STOPPED, line_of
 from ..runner import carry_out
 from ..scene import CannotSave, SceneError
 from ..scene.failure import KINDS
+from ..scene.overrides import by_number
 from .answer import ANY, Answer, Asked
 from .auto import Auto
 from .demands import Demand, amount
 from .draw import CannotDraw
 from .estimates import Estimate
 from .sample import SceneSample
-from .study import StudyError
+from .study import Lock, StudyError
 
 MOST_CELLS = 400
 FLAT = 0.01         #: relative change of demands below which a key is said to change none
@@ -46,13 +48,14 @@ class Cell:
         return ", ".join(f"{key} = {value}" for key, value in self.values.items())
 
 
-def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
+def _varied(texts: list[str], content: dict[str, Any]) -> list[tuple[str, list[Any]]]:
+    """Keys and values. content: of the scene file, for keys with names."""
     from ..sweep import keys_of, varied
     try:
         found = [varied(text) for text in texts]
+        keys = [by_number(one, content) for key, _ in found for one in keys_of(key)]
     except ValueError as error:
         raise Usage(f"--vary {error}") from None
-    keys = [one for key, _ in found for one in keys_of(key)]
     if len(set(keys)) < len(keys):
         raise Usage("--vary: each key once")
     settings = [one for one in keys if re.fullmatch(r"variability\.\w+", one)]
@@ -74,7 +77,8 @@ class Map:
 
     def __init__(self, sample: SceneSample, options: argparse.Namespace, question: str, output: CommandOutput) -> None:
         self.sample, self.options, self.question, self.output = sample, options, question, output
-        self.vary = _varied(options.vary)
+        self.content = tomllib.loads(sample.text)
+        self.vary = _varied(options.vary, self.content)
         self._refuse_lost()
         self.cells: list[Cell] = []
 
@@ -86,19 +90,23 @@ class Map:
         written = {_plain(key): (table, i, one.name) for table, i, one in parts if not one.relative for key in one.keys}
         for text, _ in self.vary:
             for key in keys_of(text):
-                if _plain(key) in written:
-                    table, i, name = written[_plain(key)]
+                plain = _plain(by_number(key, self.content))
+                if plain in written:
+                    table, i, name = written[plain]
                     raise Usage(f"--vary {key}: each sample has a value of its own, of {name}, so that these would be lost; vary a parameter of the "
                                 f"distribution, as variability.{table}[{i}].mean, or make it relative = true")
 
     def answer(self) -> int:
         """All cells, then the map; returns the exit status: 1 where a cell has no answer."""
-        status = 0
+        status, lock = 0, Lock(self.output.folder / "map", "--output folder") if self.output.folder else None  # a second master is refused here, not by each cell
         try:
             for number, values in enumerate(itertools.product(*(listed for _, listed in self.vary)), 1):
                 self.cells.append(self._cell(number, dict(zip((key for key, _ in self.vary), values))))
         except KeyboardInterrupt:
             self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells" + ("; the same command continues from there" if self.output.folder else ""))
+        finally:
+            if lock is not None:
+                lock.release()
         if any(one.message for one in self.cells) or not self.cells:
             status = FAILED
         if len({one.dimension for one in self.cells if not one.message}) > 1:

@@ -49,6 +49,7 @@ class Demand:
     lost: int = 0           #: without one, which the intervals count as the smallest or the largest
     least: float = 0.0      #: demand of all samples
     most: float = 0.0
+    weighted: bool = False  #: samples stand for different numbers of them, as in the question auto
 
     @property
     def worst(self) -> Percentile:
@@ -64,6 +65,7 @@ class Demand:
         share = f"{100.0 * worst.share:.3g} % of the {limit} {amount(self.failure.limit, unit)}" if math.isfinite(worst.share) else \
             f"{limit} {amount(self.failure.limit, unit)}"
         known = f" (of the {self.samples} of {self.samples + self.lost} samples that have one)" if self.lost else ""
+        known = f" (of {self.samples} runs by their weights{f', {self.lost} more are lost' if self.lost else ''})" if self.weighted else known
         return f"{self.failure.name}: demand{known} {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
 
     def doubts(self, question: str) -> list[str]:
@@ -104,6 +106,36 @@ def percentile(ranked: Any, percent: int, confidence: float, lost: int = 0) -> t
             float(ranked[high - 1]) if high <= known else math.inf)
 
 
+def weighted_percentile(values: Any, weights: Any, percent: int, confidence: float, lost: float = 0.0) -> tuple[float, float, float]:
+    """Value and interval of a percentile of values that stand for different numbers of samples. With the weights w of n values that were drawn
+    independently, F(t) = sum of w over values <= t / sum of w has at the percentile q the variance
+
+        v = sum w^2 (1(x <= t) - q)^2 / (sum w)^2,
+
+    that of m = q (1 - q)/v equal samples. The interval is that of the order statistics of m samples, found on F (Woodruff 1952; Korn and Graubard
+    1998). lost: weight of those without a value, which the lower end counts as the smallest values, the upper one as the largest."""
+    numpy, beta, q = need("numpy"), need("scipy.stats").beta, percent / 100.0
+    order = numpy.argsort(values, kind="stable")
+    ranked, w = values[order], weights[order]
+    known, total = float(w.sum()), float(w.sum()) + lost
+    below = numpy.cumsum(w)
+
+    def at(weight: float) -> int:
+        """The first value up to which there is so much weight, within rounding."""
+        return int(numpy.searchsorted(below, weight - 1e-9 * total))
+
+    value = ranked[min(at(q * known), len(ranked) - 1)]
+    inside = ranked <= value
+    variance = (float((w ** 2 * (inside - q) ** 2).sum()) + lost ** 2 / max(1, len(w))) / total ** 2
+    m = max(1.0, min(q * (1.0 - q) / variance, float(len(w))) if variance > 0.0 else 1.0)
+    low = float(beta.ppf(0.5 * (1.0 - confidence), q * m, (1.0 - q) * m + 1.0))
+    high = float(beta.isf(0.5 * (1.0 - confidence), q * m + 1.0, (1.0 - q) * m))
+    first, last = at(low * total - lost), at(high * total)
+    smallest, largest = float(w.max()) / total > low, float(w.max()) / total > 1.0 - high  # one more sample of that weight could lie beyond
+    return (float(value), -math.inf if smallest or low * total <= lost else float(ranked[min(first, len(ranked) - 1)]),
+            math.inf if largest or last >= len(ranked) else float(ranked[last]))
+
+
 def _share(value: float, failure: Failure) -> float:
     if not failure.limit or not math.isfinite(value):
         return math.nan if not math.isinf(value) or KINDS[failure.kind].low else math.inf
@@ -112,18 +144,27 @@ def _share(value: float, failure: Failure) -> float:
     return value / failure.limit
 
 
-def matters(demands: Any, inputs: Any, names: Sequence[str]) -> list[Matter]:
-    """The rank correlation of a demand with each input."""
-    numpy, stats, n = need("numpy"), need("scipy.stats"), len(demands)
+def _ranks(values: Any, weights: Any) -> Any:
+    """Mean ranks of values that stand for so many samples, about their mean."""
+    numpy = need("numpy")
+    _, place = numpy.unique(values, return_inverse=True)
+    sums = numpy.bincount(place, weights)
+    ranks = (numpy.cumsum(sums) - 0.5 * sums)[place]
+    return ranks - float(weights @ ranks) / float(weights.sum())
+
+
+def matters(demands: Any, inputs: Any, names: Sequence[str], weights: Any = None) -> list[Matter]:
+    """The rank correlation of a demand with each input; with weights w that of (sum w)^2/sum w^2 samples (Kish 1965)."""
+    numpy, n = need("numpy"), len(demands)
     if n < 10 or numpy.ptp(numpy.where(numpy.isinf(demands), 0.0, demands)) == 0.0:
         return []
-    ranks, least = stats.rankdata(demands), 1.96 / math.sqrt(n - 1)
+    w = numpy.ones(n) if weights is None else weights
+    ranks, least = _ranks(demands, w), 1.96 / math.sqrt(max(1.0, float(w.sum() ** 2 / (w ** 2).sum()) - 1.0))
     found = []
     for i, name in enumerate(names):
-        column = stats.rankdata(inputs[:, i])
-        spread = float(numpy.std(column) * numpy.std(ranks))
-        rank = float(numpy.mean((column - column.mean()) * (ranks - ranks.mean()))) / spread if spread > 0.0 else 0.0
-        found.append(Matter(name, rank, least))
+        column = _ranks(inputs[:, i], w)
+        spread = math.sqrt(float(w @ column ** 2) * float(w @ ranks ** 2))
+        found.append(Matter(name, float(w @ (column * ranks)) / spread if spread > 0.0 else 0.0, least))
     return sorted(found, key=lambda one: -abs(one.rank))
 
 
@@ -132,9 +173,10 @@ def _excess(failure: Failure, margins: Any) -> Any:
     return margins if KINDS[failure.kind].low else -margins
 
 
-def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float, margins: Any = None) -> Demand | None:
+def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float, margins: Any = None,
+              weights: Any = None) -> Demand | None:
     """Of the samples of one failure in order, NaN where there is none; None where no sample has one. margins: where the limit varies too, so that
-    rank correlations are those of demand - limit."""
+    rank correlations are those of demand - limit. weights: numbers of samples that each stands for, where they differ."""
     numpy = need("numpy")
     good = ~numpy.isnan(demands)
     known = demands[good]
@@ -142,8 +184,11 @@ def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str],
         return None
     ranked, lost = numpy.sort(known), int(len(demands) - len(known))
     finite = known[numpy.isfinite(known)]
-    counts, edges = numpy.histogram(finite, BINS) if len(finite) else (numpy.zeros(0, int), numpy.zeros(0))
-    points = [(percent, *percentile(ranked, percent, confidence, lost)) for percent in PERCENTS]
-    return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(), counts.tolist(),
-                  int(len(known) - len(finite)), matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names), margins is not None,
-                  len(known), lost, float(ranked[0]), float(ranked[-1]))
+    w = weights[good] if weights is not None else None
+    counts, edges = numpy.histogram(finite, BINS, weights=None if w is None else w[numpy.isfinite(known)]) if len(finite) else (numpy.zeros(0), numpy.zeros(0))
+    points = [(percent, *(percentile(ranked, percent, confidence, lost) if w is None else
+                          weighted_percentile(known, w, percent, confidence, float(weights[~good].sum())))) for percent in PERCENTS]
+    return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(),
+                  [round(one) for one in counts.tolist()], int(len(known) - len(finite)),
+                  matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names, w), margins is not None,
+                  len(known), lost, float(ranked[0]), float(ranked[-1]), weights is not None)

@@ -35,7 +35,8 @@ def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
         elif kind in (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC):
             total += value_at(time, segment)
         else:
-            raise CannotDraw(f"a segment of kind {word_of(SegmentKind(kind))} cannot be multiplied; use how = \"added\"")
+            raise CannotDraw(f"a segment of kind {word_of(SegmentKind(kind))} cannot be multiplied, because its values are known in the run only; use "
+                             "how = \"added\"")
     return total
 
 
@@ -118,6 +119,7 @@ class Draw:
 
     def _process(self, one: RandomProcess) -> tuple[Expansion | Markov, Any]:
         numpy = need("numpy")
+        self._refuse_factor(one)
         end = self.scene.run.get("end", 0.0)
         if not end > 0.0:
             raise CannotDraw(f"{one.name}: a process in time needs [run] end")
@@ -214,18 +216,30 @@ class Draw:
             del found[key]  # they stand in the tables now
         return tables
 
+    def _refuse_factor(self, one: RandomProcess) -> None:
+        """A factor of a time function whose values are not known before the run, once for all samples."""
+        if one.how == "factor":
+            try:
+                value_of_segments(self._segments(one), 0.0)
+            except CannotDraw as error:
+                raise CannotDraw(f"{one.name}: time function {one.time_function}: {error}") from None
+
+    def _segments(self, one: RandomProcess) -> list[dict[str, Any]]:
+        """The described segments of the time function of a process."""
+        return list([arguments for name, arguments in self._parts() if name == "add_time_function"][self._time_function_number(one)])
+
     def _time_function_number(self, one: RandomProcess) -> int:
         made = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_time_function"]
         return made.index(self.scene.names[one.time_function])
 
     def _time_function(self, one: RandomProcess, times: Any, factors: Any) -> dict[str, Any]:
         number = self._time_function_number(one)
-        segments = [arguments for name, arguments in self._parts() if name == "add_time_function"][number]
+        segments = self._segments(one)
         unit = self.scene.time_function_units[one.time_function]
         if one.how == "added":
             rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
-            return {f"time_function[{number}].segment": [*self._written(list(segments), unit), {"table": rows}]}
-        rows = [[text(float(t), "s"), text(value_of_segments(list(segments), float(t)) * float(v), unit)] for t, v in zip(times, factors)]
+            return {f"time_function[{number}].segment": [*self._written(segments, unit), {"table": rows}]}
+        rows = [[text(float(t), "s"), text(value_of_segments(segments, float(t)) * float(v), unit)] for t, v in zip(times, factors)]
         return {f"time_function[{number}].segment": [{"table": rows}]}
 
     def _written(self, segments: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:

@@ -104,12 +104,12 @@ _GUARD = threading.Lock()
 _OPEN: set[tuple[int, int]] = set()  # lock files that this process holds, by device and inode
 
 
-class _Lock:
-    """The right to write a study file, a POSIX lock on a file beside it. Such a lock is lost with any close of that file by its process, so
+class Lock:
+    """The right to write a study file, or those of a map, a POSIX lock on a file beside it. Such a lock is lost with any close of that file by its process, so
     a process that holds it never opens the file again. Workers that outlive their parent do not hold it."""
 
-    def __init__(self, path: pathlib.Path) -> None:
-        place, busy = path.with_name(path.name + ".lock"), StudyError(f"{path}: another run writes it now; wait for it, or give another file")
+    def __init__(self, path: pathlib.Path, other: str = "file") -> None:
+        place, busy = path.with_name(path.name + ".lock"), StudyError(f"{path}: another run writes it now; wait for it, or give another {other}")
         with _GUARD:
             if place.exists() and _place_of(place) in _OPEN:
                 raise busy
@@ -159,7 +159,7 @@ class StudyFile:
         self._attributes = {"study": json.dumps(self._known), "names": json.dumps(self.names), "inputs": json.dumps(self.inputs)}
         self._mark, self._kind = mark_of(self._attributes), row_type(len(self.names), len(self.inputs))
         self._waiting: list[Result] = []
-        self._lock = _Lock(self.path)
+        self._lock = Lock(self.path)
         try:
             self._open(salvage)
         except BaseException:

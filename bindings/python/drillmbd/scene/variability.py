@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._optional import need
 from . import units
-from .overrides import path_of_key
+from .overrides import by_number, path_of_key
 from .failure import QUESTIONS
 from .failure import unit_of as unit_of_failure
 from .fields import DEFINITIONS, Field, fields_of
@@ -276,6 +276,14 @@ class Reader:
             return None
         return unit
 
+    def _by_number(self, path: Path, keys: list[Any]) -> list[Any] | None:
+        """Keys with the numbers of the tables that they name; None where one is wrong."""
+        try:
+            return [by_number(key, self.loader.content) if isinstance(key, str) else key for key in keys]
+        except ValueError as error:
+            self.problems.add(path, keys if len(keys) > 1 else keys[0], str(error))
+            return None
+
     def _holder(self, where: Path) -> Any:
         """The table that a key stands in; None where there is none."""
         holder: Any = self.loader.content
@@ -294,6 +302,9 @@ class Reader:
         keys = [table["key"]] if "key" in table else table.get("keys", [])
         if not isinstance(keys, list) or not keys or ("key" in table) == ("keys" in table):
             self.problems.add(path, None, 'must have a key, as key = "hole.diameter", or several, as keys = [...]')
+            return None
+        keys = self._by_number(path + ("key" if "key" in table else "keys",), keys)
+        if keys is None:
             return None
         found = [self._key(path + ("key" if "key" in table else "keys",), key) for key in keys]
         relative = self._relative(path, table)
@@ -345,6 +356,9 @@ class Reader:
         keys, relative = [table["key"]] if "key" in table else table.get("keys", []), self._relative(path, table)
         if not isinstance(keys, list) or not keys or ("key" in table) == ("keys" in table):
             self.problems.add(path, None, 'must have a key, as key = "hole.mu_dynamic", or several of the hole, as keys = [...]')
+            return None
+        keys = self._by_number(path + ("key" if "key" in table else "keys",), keys)
+        if keys is None:
             return None
         along_hole = [isinstance(key, str) and key.startswith("hole.") and key[5:] in ALONG_HOLE for key in keys]
         if any(along_hole) or len(keys) > 1:
