@@ -198,7 +198,7 @@ class Answer:
                 return results
 
     def say_demands(self, results: list[Result], weights: Any = None) -> None:
-        """Percentiles and rank correlations of the demands. weights: of the results, where they stand for different numbers of samples."""
+        """Percentiles and rank correlations of the demands. weights: of the results, where they represent different numbers of samples."""
         numpy = need("numpy")
         demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs", "margins"))
         for i, one in enumerate(self.asked.failures):

@@ -49,7 +49,7 @@ class Demand:
     lost: int = 0           #: without one, which the intervals count as the smallest or the largest
     least: float = 0.0      #: demand of all samples
     most: float = 0.0
-    weighted: bool = False  #: samples stand for different numbers of them, as in the question auto
+    weighted: bool = False  #: samples represent different numbers of them, as in the question auto
 
     @property
     def worst(self) -> Percentile:
@@ -107,7 +107,7 @@ def percentile(ranked: Any, percent: int, confidence: float, lost: int = 0) -> t
 
 
 def weighted_percentile(values: Any, weights: Any, percent: int, confidence: float, lost: float = 0.0) -> tuple[float, float, float]:
-    """Value and interval of a percentile of values that stand for different numbers of samples. With the weights w of n values that were drawn
+    """Value and interval of a percentile of values that represent different numbers of samples. With the weights w of n values that were drawn
     independently, F(t) = sum of w over values <= t / sum of w has at the percentile q the variance
 
         v = sum w^2 (1(x <= t) - q)^2 / (sum w)^2,
@@ -145,7 +145,7 @@ def _share(value: float, failure: Failure) -> float:
 
 
 def _ranks(values: Any, weights: Any) -> Any:
-    """Mean ranks of values that stand for so many samples, about their mean."""
+    """Mean ranks of values that represent so many samples, about their mean."""
     numpy = need("numpy")
     _, place = numpy.unique(values, return_inverse=True)
     sums = numpy.bincount(place, weights)
@@ -176,7 +176,7 @@ def _excess(failure: Failure, margins: Any) -> Any:
 def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float, margins: Any = None,
               weights: Any = None) -> Demand | None:
     """Of the samples of one failure in order, NaN where there is none; None where no sample has one. margins: where the limit varies too, so that
-    rank correlations are those of demand - limit. weights: numbers of samples that each stands for, where they differ."""
+    rank correlations are those of demand - limit. weights: numbers of samples that each represents, where they differ."""
     numpy = need("numpy")
     good = ~numpy.isnan(demands)
     known = demands[good]
