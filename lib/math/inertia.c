@@ -158,8 +158,9 @@ void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const u
 static void raise_last(front *f, const dmb_block_raise *raise, const double *D, uint32_t at)
 {
     double size[DMB_BLOCK_SIZE_MAX] = {0.0};
-    dmb_block_row_sizes((uint32_t)(f->rows - f->n), D, raise->arm_square,
-                        raise->solved != NULL ? raise->solved + at : NULL, raise->floor, size);
+    if (raise->part > 0.0) /* else arm_square is not set */
+        dmb_block_row_sizes((uint32_t)(f->rows - f->n), D, raise->arm_square,
+                            raise->solved != NULL ? raise->solved + at : NULL, raise->floor, size);
     for (size_t i = f->n; i < f->rows; i++) {
         const size_t k = i - f->n;
         row(f, i)[i] += raise->part * size[k];

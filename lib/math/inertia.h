@@ -25,7 +25,7 @@ void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const u
 typedef struct dmb_block_raise {
     double part, share;
     const double *amount;  /* (rows of the layout); NULL: none */
-    double arm_square;     /* [m2] */
+    double arm_square;     /* [m2] > 0 if part > 0 */
     double floor;          /* [-] */
     const uint8_t *solved; /* (rows of the layout); NULL: all */
 } dmb_block_raise;
