@@ -188,9 +188,11 @@ double dmb_partition_factor(const double *B, uint32_t stride, const double *weig
         double *row = lu + n * k;
         pivot[k] = pivot_of_column(p->rank, k, lu);
         if (pivot[k] != k) dmb_block_swap(n, row, lu + n * pivot[k]);
-        const double size = fabs(row[k]) * weight[p->column_order[k]], reciprocal = 1.0 / row[k];
+        const double size = fabs(row[k]) * weight[p->column_order[k]];
+        if (!(size > 0.0 && size <= DBL_MAX)) return 0.0;
+        const double reciprocal = 1.0 / row[k];
         const double length = row_length(p->columns, B + (size_t)p->row_order[origin(pivot, k)] * stride, weight);
-        if (!(size > 0.0 && size <= DBL_MAX && fabs(reciprocal / length) <= DBL_MAX)) return 0.0;
+        if (!(fabs(reciprocal / length) <= DBL_MAX)) return 0.0;
         if (size < smallest) smallest = size;
         if (size > largest) largest = size;
         factor_step(n, k, reciprocal, lu);

@@ -66,7 +66,7 @@ static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
                           "finite, or NaN for the time function");
         return DMB_ERR_NOT_FINITE;
     }
-    if (fabs(value) > DMB_FORCE_MAX) { /* limit as in descriptions: beyond it work and power overflow */
+    if (isgreater(fabs(value), DMB_FORCE_MAX)) { /* limit as in descriptions: beyond it work and power overflow */
         dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
                           "from -1e30 to 1e30, or NaN for the time function");
         return DMB_ERR_VALUE;

@@ -281,7 +281,9 @@ typedef struct shifted {
 double dmb_shifted_value(double growth, double omega, double re, double im)
 {
     const number t = re - growth + im * (number)_Complex_I;
-    return 1.0 / cabs(omega > 0.0 ? t + omega * omega / t : t);
+    if (re == growth && im == 0.0) return omega > 0.0 ? 0.0 : (double)INFINITY; /* its limit, without a division by 0 */
+    const double size = cabs(omega > 0.0 ? t + omega * omega / t : t);
+    return size > 0.0 ? 1.0 / size : (double)INFINITY;
 }
 
 static void metric(void *context, const double *x, double *y)

@@ -74,8 +74,9 @@ static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_dr
 {
     const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drives[i].force;
     const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
-    double piece, change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
+    double piece;
     if (gain == 0.0) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    double change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
     (void)dmb_drive_gain(r->copy->scene, &r->copy->now, i, &piece);
     if (drive->table != DMB_NONE) change = -fmin(fabs(change), 0.25 * piece);
     return difference(r, &r->copy->trial.drives[i].target, change, change * gain, 2.0);

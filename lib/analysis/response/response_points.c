@@ -28,10 +28,12 @@ static int32_t load(dmb_response_work *w, uint32_t input, double omega)
 {
     const dmb_linear_excitation *e = w->excitations + input;
     const dmb_complex_array rows = {e->re, e->im};
+    const int integral = e->law == DMB_EXCITE_CONTROL && e->integral_gain != 0.0;
     const double kept = e->law == DMB_EXCITE_MOTION ? 0.0 : 1.0;
     double re = 1.0, im = 0.0;
+    if (omega == 0.0 && (integral || e->law == DMB_EXCITE_MOTION)) return no_displacement(w, input);
     if (e->law == DMB_EXCITE_INERTIA) re = omega * omega;
-    if (e->law == DMB_EXCITE_CONTROL) re = e->gain, im = e->integral_gain == 0.0 ? 0.0 : -e->integral_gain / omega;
+    if (e->law == DMB_EXCITE_CONTROL) re = e->gain, im = integral ? -e->integral_gain / omega : 0.0;
     if (e->law == DMB_EXCITE_MOTION) re = 0.0, im = -1.0 / omega;
     if (!isfinite(im)) return no_displacement(w, input);
     scale_rows(w->linear->rows, re, im, rows, w->x);

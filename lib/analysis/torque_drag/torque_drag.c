@@ -156,9 +156,10 @@ static int32_t read_operation(request *r, const dmb_operation *operations, uint3
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
+/* The largest of those up to now; NaN once one is. Comparisons with NaN raise no exception. */
 static void keep_largest(double value, double depth, double *largest, double *at)
 {
-    if (!(value > *largest) && !isnan(value)) return;
+    if (!isgreater(value, *largest) && !isnan(value)) return;
     *largest = value;
     if (at != NULL) *at = depth;
 }
@@ -186,7 +187,7 @@ static void visit_row(void *context, const dmb_soft_place *place)
     keep_largest(place->sinusoidal, place->depth, &row->sinusoidal_share, NULL);
     if (isnan(place->helical)) row->helical_share = row->sinusoidal_share = (double)NAN;
     if (!isnan(row->yield_share)) keep_largest(yield_share(place), place->depth, &row->yield_share, &row->yield_at);
-    if (!(place->helical <= 1.0)) row->helix_length += place->step;
+    if (!islessequal(place->helical, 1.0)) row->helix_length += place->step;
     row->hook_load = N;
     row->torque = place->state[DMB_SOFT_TORQUE];
     row->transfer = 1.0 / place->state[DMB_SOFT_GROWTH];

@@ -152,12 +152,12 @@ void dmb_bounces_carry(dmb_sim *sim)
 void dmb_bounces_add_carried(const dmb_evaluation *evaluation, double *rows)
 {
     dmb_sim *sim = evaluation->sim;
-    const double b = 1.0 / (evaluation->step * evaluation->velocity_factor);
     for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++) {
         dmb_site_force f;
         dmb_normal_mean mean;
         if (!(sim->site_mode[s] & DMB_SITE_CARRIED) || (sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS)
             continue;
+        const double b = 1.0 / (evaluation->step * evaluation->velocity_factor);
         dmb_site_mean_of(sim, s, evaluation->step, &mean);
         memset(&f, 0, sizeof f);
         dmb_vec3_copy(sim->trial.site_normal + 3 * (size_t)s, f.normal);
