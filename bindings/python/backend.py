@@ -1,6 +1,8 @@
 """Builds the package for pip (PEP 517, PEP 660) with nothing but Python, so that it installs without network, setuptools
-or wheel. Where the environment variable DRILLMBD_BUNDLE names a libdrillmbd.so, that file goes into the package, which
-then needs no other, and so does the binary of co-simulation units beside it."""
+or wheel. In the source tree it builds the library and the binary of co-simulation units by CMake (preset user, which
+repeats no work), and both go into the package, which then needs no other. The environment variable DRILLMBD_BUNDLE
+names another libdrillmbd.so to be taken, or "none": the package then looks for an installed library, as it does
+where the sources of the library or CMake are absent."""
 import ast
 import base64
 import hashlib
@@ -8,6 +10,9 @@ import io
 import os
 import pathlib
 import re
+import shutil
+import subprocess
+import sys
 import sysconfig
 import tarfile
 import zipfile
@@ -34,18 +39,39 @@ def version():
     return re.search(r'^__version__ = "([^"]+)"', text, re.M).group(1)
 
 
-def bundled():
-    """The library that DRILLMBD_BUNDLE names, from the folder of the call or of the project, and what goes along with it:
-    pairs of a name in the package and a file."""
-    name = os.environ.get("DRILLMBD_BUNDLE")
-    if not name:
-        return []
+def built():
+    """The library that CMake builds of the sources around this folder; None where they or CMake are absent."""
+    root = HERE.parents[1]
+    if not (root / "CMakePresets.json").is_file() or not shutil.which("cmake"):
+        print("drillmbd: without a library of its own: CMake or the sources of the library are absent", file=sys.stderr)
+        return None
+    for command in (["cmake", "--preset", "user"],
+                    ["cmake", "--build", "build/user", "--target", "drillmbd", "drillmbd_fmu", "--parallel", str(os.cpu_count() or 1)]):
+        done = subprocess.run(command, cwd=root, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{done.stdout[-4000:]}\n{' '.join(command)} in {root} failed. DRILLMBD_BUNDLE=FILE takes a library "
+                             "that is built, DRILLMBD_BUNDLE=none an installed one")
+    files = (root / "build" / "user" / name for name in ("libdrillmbd.so", "libdrillmbd.dylib", "drillmbd.dll"))
+    return next(file for file in files if file.exists())
+
+
+def named(name):
+    """The library that DRILLMBD_BUNDLE names, from the folder of the call or of the project."""
     places = [pathlib.Path(os.environ.get("PWD", ".")), HERE.parents[1], pathlib.Path.cwd()]
     library = next((place / name for place in places if (place / name).is_file()), None)
     if library is None:
-        raise SystemExit(f"DRILLMBD_BUNDLE = {name}, must be the file of the built library; first build it: "
-                         "cmake --preset user && cmake --build build/user")
-    unit = library.with_name("drillmbd_fmu.so")
+        raise SystemExit(f"DRILLMBD_BUNDLE = {name}, must be the file of a library that is built, or none; without it, the "
+                         "library is built")
+    return library
+
+
+def bundled():
+    """The library that goes into the package, and the binary of units beside it: pairs of a name in the package and a file."""
+    name = os.environ.get("DRILLMBD_BUNDLE")
+    library = None if name == "none" else named(name) if name else built()
+    if library is None:
+        return []
+    unit = library.with_name("drillmbd_fmu" + (".dll" if library.suffix == ".dll" else ".so"))
     kind = ".so" if ".so" in library.name else library.suffix
     found = [("libdrillmbd" + kind if kind != ".dll" else "drillmbd.dll", library)]
     return found + ([(unit.name, unit)] if unit.exists() else [])
@@ -91,7 +117,7 @@ def write_wheel(folder, contents, tag):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """The package, with the library where it was asked for."""
+    """The package, with the library where there is one."""
     added = bundled()
     names = [f"drillmbd/{name}" for name, _ in added]
     files = [one for one in sources() if one[0] not in names] + list(zip(names, (path for _, path in added)))
@@ -101,7 +127,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
-    """The path to the sources, which stay where they are."""
+    """The path to the sources, which stay where they are; the library is found as where it is installed."""
     return write_wheel(wheel_directory, [("drillmbd.pth", f"{HERE}\n".encode())], "py3-none-any")
 
 

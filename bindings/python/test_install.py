@@ -10,6 +10,7 @@ import sys
 import tarfile
 import tempfile
 import unittest
+import unittest.mock
 import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -38,10 +39,9 @@ class InstallTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def readme_command(self):
-        """Words of README's command, its preset in the place of ours; the environment variable before them."""
-        line = re.search(r"^    DRILLMBD_BUNDLE=(\S+) pip (install .*)$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
-        self.assertEqual(pathlib.Path(line.group(1)).name, "libdrillmbd.so")
-        return line.group(2).split()
+        """Words of README's command. It builds the library by the preset user; here, ours is in its place."""
+        line = re.search(r"^    pip (install .*)$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+        return line.group(1).split()
 
     def test_pip(self):
         try:
@@ -78,9 +78,10 @@ class InstallTest(unittest.TestCase):
         self.assertIn("drillmbd/libdrillmbd.so", names)
         self.assertIn("drillmbd/scene/catalogue.toml", names)
         os.environ["DRILLMBD_BUNDLE"] = "no/such.so"
-        with self.assertRaisesRegex(SystemExit, "must be the file of the built library"):
+        with self.assertRaisesRegex(SystemExit, "must be the file of a library that is built"):
             backend.build_wheel(self.folder)
-        del os.environ["DRILLMBD_BUNDLE"]
+        self.builds_the_library(backend)
+        os.environ["DRILLMBD_BUNDLE"] = "none"
         name = backend.build_wheel(self.folder)
         self.assertTrue(name.endswith("-py3-none-any.whl"))
         wheel = zipfile.ZipFile(self.folder / name)
@@ -94,6 +95,26 @@ class InstallTest(unittest.TestCase):
             self.assertTrue(any(path.endswith("/backend.py") for path in archive.getnames()))
         editable = zipfile.ZipFile(self.folder / backend.build_editable(self.folder))
         self.assertEqual(editable.read("drillmbd.pth").decode().strip(), str(HERE))
+
+    def builds_the_library(self, backend):
+        """Without the variable, CMake builds it where the sources are; here, a stand-in for cmake makes the files."""
+        tree, tools = self.folder / "tree", self.folder / "tools"
+        tools.mkdir()
+        (tree / "bindings" / "python").mkdir(parents=True)
+        (tree / "CMakePresets.json").write_text("{}")
+        (tools / "cmake").write_text('#!/bin/sh\n[ "$1" = --build ] || exit 0\nmkdir -p build/user\n'
+                                     'echo library > build/user/libdrillmbd.so; echo unit > build/user/drillmbd_fmu.so; exit ${FAIL:-0}\n')
+        (tools / "cmake").chmod(0o755)
+        with unittest.mock.patch.object(backend, "HERE", tree / "bindings" / "python"), \
+                unittest.mock.patch.dict(os.environ, {"PATH": f"{tools}:{os.environ['PATH']}"}):
+            del os.environ["DRILLMBD_BUNDLE"]
+            self.assertEqual([(name, path.read_text()) for name, path in backend.bundled()],
+                             [("libdrillmbd.so", "library\n"), ("drillmbd_fmu.so", "unit\n")])
+            os.environ["FAIL"] = "1"
+            with self.assertRaisesRegex(SystemExit, "DRILLMBD_BUNDLE=none"):
+                backend.bundled()
+            (tree / "CMakePresets.json").unlink()
+            self.assertEqual(backend.bundled(), [])
 
     def finds_units(self, python, folder, **more):
         """The binary of co-simulation units is installed beside the library, where it was built."""
