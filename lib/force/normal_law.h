@@ -91,16 +91,18 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real da
 #define DMB_TOUCH_FIRST (11.0 / 6.0)
 #define DMB_TOUCH_MOST 4.0 /* [-] largest weight, reached after steps that are much shorter than the previous one */
 
-/* State of a ring: w - 1, D [s], p while w2 is due (else 0), and the force [N/m] of a law that may pull. */
+/* History of a contact point (eq:touch.weights, eq:touch.time): w - 1 of the last step; D [s], the time that the
+ * weights are still short of; p, the closed fraction of the step with touch while w2 is due, else 0; and without
+ * contact the (tensile) force [N/m] that the law would give. */
 enum { DMB_TOUCH_EXCESS, DMB_TOUCH_TIME, DMB_TOUCH_PART, DMB_TOUCH_FORCE, DMB_TOUCH_SIZE };
 
-/* Weight [-] and its derivative by the depth [1/m]. */
+/* Weight w [-] of the damping and its derivative with respect to the depth [1/m]. */
 typedef struct dmb_normal_touch {
     dmb_real weight, by_depth;
 } dmb_normal_touch;
 
 /* Computes the weight at depth > 0 [m] after a step h [s] from the depth `before`. was, is: previous and new state of
- * the ring, without its force. */
+ * the contact point, without its force. eq:touch.weights, unequal steps: eq:touch.time. */
 static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real h, const dmb_real was[DMB_TOUCH_SIZE],
                                        dmb_normal_touch *out, dmb_real is[DMB_TOUCH_SIZE])
 {
@@ -125,8 +127,8 @@ static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real
     is[DMB_TOUCH_PART] = dmb_real_select(closes, part, zero);
 }
 
-/* Computes the response at penetration depth > 0 [m] (or NaN) with rate [m/s]; impact_speed [m/s] is the speed at first
- * touch. The force and its derivatives are 0 if the law would pull. touch: NULL if damping is not weighted. */
+/* Computes eq:contact.normal at penetration depth > 0 [m] (or NaN) with rate [m/s]; impact_speed [m/s] is the speed at
+ * first touch. The force and its derivatives are 0 if the law would pull. touch: NULL if damping is not weighted. */
 static inline void dmb_normal_response_at(const dmb_local_normal *local, dmb_real depth, dmb_real rate,
                                           dmb_real impact_speed, const dmb_normal_touch *touch,
                                           dmb_normal_response *out)

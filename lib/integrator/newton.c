@@ -108,7 +108,7 @@ static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
 
 #define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
 #define DMB_NEWTON_LINEAR 0.7 /* [-] factor on that after a linear prediction (small corrections) */
-#define DMB_NEWTON_PACE 0.05  /* [-] h w above which DMB_NEWTON_PART applies */
+#define DMB_NEWTON_PACE 0.05  /* [-] h w above which DMB_NEWTON_PART applies; PART/PACE = 0.2 of eq:integration.stop */
 #define DMB_NEWTON_MOST 1e-3  /* [-] largest permitted relative residual */
 #define DMB_NEWTON_LEAST 1e-8 /* [-] relative residual that always suffices */
 #define DMB_NEWTON_WORK 1e-7  /* [-] power of the residual over the power exchanged by the forces */
@@ -121,7 +121,7 @@ static double fraction_of(const dmb_sim *sim)
 }
 
 /* [-] A linear prediction may satisfy the bound in step after step, and the errors left would accumulate: without a
- * correction, the bound is reduced by this factor. */
+ * correction, the bound is reduced by this factor (theory/integration.md, "Where Newton stops"). */
 #define DMB_LINEAR_AIM 0.01
 
 /* Bound of the residual, times `aim`: below 1 for reused factors and linear predictions. */
@@ -161,9 +161,9 @@ static powers powers_of(const dmb_sim *sim)
 /* [-] h times the frequency of the motion (eq:integration.pace) over DMB_NEWTON_PACE, at most 1. */
 static double pace_of(const dmb_trial_step *trial_step, const dmb_convergence_history *history, double exchanged)
 {
-    const double way = trial_step->end.step * exchanged * history->first;
-    const double squared = 4.0 / (DMB_NEWTON_PACE * DMB_NEWTON_PACE) * history->most_work;
-    return way > squared ? sqrt(squared / way) : 1.0;
+    const double energy = trial_step->end.step * exchanged * history->first;
+    const double scaled_work = 4.0 / (DMB_NEWTON_PACE * DMB_NEWTON_PACE) * history->most_work;
+    return energy > scaled_work ? sqrt(scaled_work / energy) : 1.0;
 }
 
 /* [-] Error left (eq:integration.contraction) over the permitted one (eq:integration.stop) at pace 1. */

@@ -61,22 +61,23 @@ int32_t dmb_stepping_check_at_most(dmb_sim *sim, const char *field, double value
 }
 
 /* 1 if forces or the rate of a time function may jump at the end of the step, so that accelerations may have to be
- * recomputed. *turns: the rate jumps. DMB_ERR_CALLBACK. */
-static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t *turns)
+ * recomputed. *rate_jumps: the rate jumps. DMB_ERR_CALLBACK. */
+static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t *rate_jumps)
 {
     const dmb_scene *scene = sim->scene;
-    *turns = dmb_system_rate_jumps(sim, trial_step->end.time, fmax(trial_step->end.breakpoint, sim->clock->breakpoint));
-    if (*turns != 0) return *turns;
+    *rate_jumps =
+        dmb_system_rate_jumps(sim, trial_step->end.time, fmax(trial_step->end.breakpoint, sim->clock->breakpoint));
+    if (*rate_jumps != 0) return *rate_jumps;
     return scene->hole.cuts > 0 || dmb_stuck_largest_ratio(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
            dmb_actuators_may_jump(scene);
 }
 
 /* Recomputes the accelerations if forces or the rate of a time function jump at the time reached; *jumped: they do. */
-static int32_t stepping_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
+static int32_t stepping_breakpoint(dmb_sim *sim, int32_t rate_jumps, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
     const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
-    *jumped = freed > 0 || widened || turns || dmb_actuators_jump(sim);
+    *jumped = freed > 0 || widened || rate_jumps || dmb_actuators_jump(sim);
     if (!*jumped) return DMB_OK;
     sim->busy = DMB_BUSY_CHANGING;
     const int32_t status = dmb_system_jump(sim);
@@ -92,18 +93,18 @@ static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *st
 {
     const dmb_factor_reuse kept = *sim->reuse;
     int jumped = 0;
-    int32_t turns = 0, status = may_jump(sim, trial_step, &turns);
+    int32_t rate_jumps = 0, status = may_jump(sim, trial_step, &rate_jumps);
     if (status >= 0) {
         if (status > 0 && sim->scene->has_callback && trial_step->keep == DMB_KEEP_AT_COMMIT)
             trial_step->keep = DMB_KEEP_AFTER_JUMP;
-        if (status > 0 && !stepping->set_aside) dmb_state_back_up(sim);
+        if (status > 0 && !stepping->backed_up) dmb_state_back_up(sim);
         dmb_trial_step_commit(sim, trial_step);
-        status = stepping_breakpoint(sim, turns, &jumped);
+        status = stepping_breakpoint(sim, rate_jumps, &jumped);
         if (status >= 0) {
             if (trial_step->keep == DMB_KEEP_AFTER_JUMP && !jumped) dmb_factor_reuse_end(sim, trial_step, &sim->now);
             return DMB_OK;
         }
-        if (!stepping->set_aside) dmb_state_restore(sim);
+        if (!stepping->backed_up) dmb_state_restore(sim);
         dmb_factor_reuse_revert(sim, trial_step, &kept);
     }
     stepping->report.steps--;
@@ -162,7 +163,7 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
         out.iterations = stepping->iterations;
     }
     if (status < 0 && restore) { /* counters are restored too: a failing call changes nothing */
-        if (stepping->set_aside) dmb_state_restore(sim);
+        if (stepping->backed_up) dmb_state_restore(sim);
         *sim->counters = stepping->counters;
         out.steps = 0;
     } else { /* rejected work counts */
@@ -200,10 +201,9 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
     return DMB_NOTE_STEP_CUT;
 }
 
-/* dmb_sim_step: one step of the requested length, divided at breakpoints of time functions and if Newton does not
- * converge. */
-
-DMB_DECLARE_STRUCT(dmb_step_report)
+/* ---- dmb_sim_step: one step of the requested length, divided at breakpoints of time functions and if Newton does not
+ * converge ----------------------------------------------------------------------------------------------------------
+ */
 
 /* [s] Longer steps are mistakes; their division at breakpoints by halving would not end. */
 #define DMB_DURATION_MAX 1e18
@@ -227,17 +227,17 @@ static int32_t advance_substep(dmb_sim *sim, const dmb_step_end *goal, double *c
         end.asked = goal->step;
         if (!(end.time > sim->clock->time)) return dmb_stepping_stuck(sim, "length", end.step);
         const int last = end.arrives;
-        if (!last && !stepping->set_aside) {
+        if (!last && !stepping->backed_up) {
             dmb_state_back_up(sim);
-            stepping->set_aside = 1;
+            stepping->backed_up = 1;
         }
-        int32_t status = dmb_trial_step_run(sim, &end, last && !stepping->set_aside, &trial_step);
+        int32_t status = dmb_trial_step_run(sim, &end, last && !stepping->backed_up, &trial_step);
         if (status >= 0 && sim->scene->stuck_count > 0 && !sim->options.bounded_work)
             status = dmb_trial_step_to_release(sim, &trial_step);
         if (status >= 0) {
-            if (!trial_step.end.arrives && !stepping->set_aside) {
+            if (!trial_step.end.arrives && !stepping->backed_up) {
                 dmb_state_back_up(sim);
-                stepping->set_aside = 1;
+                stepping->backed_up = 1;
             }
             const int32_t refused = dmb_stepping_commit(sim, &trial_step, stepping);
             if (refused < 0) return refused;

@@ -10,7 +10,7 @@ typedef struct dmb_stepping {
     dmb_step_report report;
     dmb_counters counters;         /* before the call */
     uint32_t rejected, iterations; /* [-] values of the report at the last accepted step */
-    int32_t set_aside;             /* 1: the state before the call is in sim->backup */
+    int32_t backed_up;             /* 1: the state before the call is in sim->backup */
     int32_t was_cut;
     int32_t limited;
     int32_t stopped;    /* max_steps used up */

@@ -250,13 +250,13 @@ static int32_t run_stages(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
     return run_stage(sim, c, own, trial_step);
 }
 
-static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
+static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t sole, dmb_trial_step *trial_step)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
     memset(trial_step, 0, sizeof *trial_step);
     trial_step->end = *end;
-    if (whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work) trial_step->keep = DMB_KEEP_AT_COMMIT;
+    if (sole && sim->scene->cluster_count == 0 && !sim->options.bounded_work) trial_step->keep = DMB_KEEP_AT_COMMIT;
     trial_step->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
     status = run_stages(sim, &c, trial_step);
@@ -282,10 +282,10 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
 }
 
 /* Runs the step with the caller's threads; their failure fails the step, whatever its result. */
-int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
+int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t sole, dmb_trial_step *trial_step)
 {
     dmb_chunks_open(sim);
-    const int32_t status = try_step(sim, end, whole, trial_step), failed = dmb_chunks_close(sim);
+    const int32_t status = try_step(sim, end, sole, trial_step), failed = dmb_chunks_close(sim);
     if (failed < 0) trial_step->status = failed;
     return failed < 0 ? failed : status;
 }

@@ -58,8 +58,8 @@ typedef struct dmb_step_error {
 } dmb_step_error;
 
 /* Computes a trial step from now to `end`; returns trial_step->status. `now` and the memory fields are unchanged.
- * whole: 1 unless the call would have to revert this step if a later one fails. */
-int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step);
+ * sole: 1 if the call consists of this step, so that it never has to revert it after a later failure. */
+int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t sole, dmb_trial_step *trial_step);
 /* After a successful trial step in which a stuck place releases: repeats it with its end just after the release.
  * Returns the status of the repeated step. */
 int32_t dmb_trial_step_to_release(dmb_sim *sim, dmb_trial_step *trial_step);
