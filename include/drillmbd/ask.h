@@ -9,7 +9,8 @@ DMB_C_BEGIN
 typedef struct dmb_pose {
     uint32_t struct_size;
     uint32_t reserved;
-    double position[3];     /* [m] of the section's centre, world frame, shape (3) */
+    double position[3];     /* [m] of the section's centre, world frame, shape (3); between the nodes of an element by
+                               its shape, without its sag under its own weight, w L^4/(384 EI) at most */
     double rotation[9];     /* [-] columns are the section's axes in the world frame, row-major, shape (3, 3) */
     double displacement[3]; /* [m] position less that at time 0 as described, world frame, shape (3) */
     double depth;           /* [m] measured depth of the closest point of the hole's axis; 0 without a hole */

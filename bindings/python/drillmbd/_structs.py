@@ -625,7 +625,7 @@ class Pose(Sized):
         ("depth", c_double),
     ]
     field_docs = {
-        "position": ("m", "of the section's centre, world frame, shape (3)"),
+        "position": ("m", "of the section's centre, world frame, shape (3); between the nodes of an element by its shape, without its sag under its own weight, w L^4/(384 EI) at most"),
         "rotation": ("-", "columns are the section's axes in the world frame, row-major, shape (3, 3)"),
         "displacement": ("m", "position less that at time 0 as described, world frame, shape (3)"),
         "depth": ("m", "measured depth of the closest point of the hole's axis; 0 without a hole"),
