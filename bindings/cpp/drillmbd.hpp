@@ -713,6 +713,54 @@ public:
 #endif
 };
 
+// y' = f(t, y) of a scene, in independent coordinates: n positions, then n velocities. It may outlive its sim.
+class state_equation : public owner<dmb_state_equation, dmb_state_equation_destroy> {
+public:
+    explicit state_equation(dmb_state_equation *handle = nullptr) noexcept : owner(handle) {}
+
+    // n, half the length of y.
+    DRILLMBD_NODISCARD std::uint32_t count() const noexcept { return dmb_state_equation_count(handle_); }
+    // In the state of the last rate or begin, for queries alone; NULL where that failed.
+    DRILLMBD_NODISCARD const dmb_sim *at() const noexcept { return dmb_state_equation_sim(handle_); }
+#if defined(DRILLMBD_EXCEPTIONS)
+    DRILLMBD_NODISCARD std::vector<std::uint32_t> rows() const
+    {
+        std::vector<std::uint32_t> answer(count());
+        check(dmb_state_equation_rows(handle_, answer.data()));
+        return answer;
+    }
+    // y of the origin, and its time [s].
+    DRILLMBD_NODISCARD std::vector<double> origin(double *time = nullptr) const
+    {
+        std::vector<double> answer(2 * static_cast<std::size_t>(count()));
+        check(dmb_state_equation_origin(handle_, time, answer.data()));
+        return answer;
+    }
+    // rate = f(time, y), both of length 2 n.
+    void rate(double time, span<const double> y, span<double> rate)
+    {
+        need(y.size());
+        need(rate.size());
+        check(dmb_state_equation_rate(handle_, time, y.data(), rate.data()));
+    }
+    // The state becomes the origin, and y its numbers.
+    void begin(double time, span<double> y)
+    {
+        need(y.size());
+        check(dmb_state_equation_begin(handle_, time, y.data()));
+    }
+#endif
+
+private:
+#if defined(DRILLMBD_EXCEPTIONS)
+    void need(std::size_t size) const
+    {
+        if (size != 2 * static_cast<std::size_t>(count()))
+            throw error(DMB_ERR_VALUE, "state equation: y and rate must have 2 count() numbers");
+    }
+#endif
+};
+
 // Derivatives of a sim by parameters, along a run. The sim must outlive it and is moved by its step and advance.
 class sensitivity : public owner<dmb_sensitivity, dmb_sensitivity_destroy> {
 public:
@@ -1033,6 +1081,12 @@ public:
         dmb_sensitivity *made = nullptr;
         done(dmb_sensitivity_create(handle_, parameters.data(), parameters.count(), &made));
         return drillmbd::sensitivity(made);
+    }
+    DRILLMBD_NODISCARD drillmbd::state_equation state_equation()
+    {
+        dmb_state_equation *made = nullptr;
+        done(dmb_state_equation_create(handle_, &made));
+        return drillmbd::state_equation(made);
     }
     DRILLMBD_NODISCARD drillmbd::fatigue fatigue(const dmb_fatigue_options &options, span<const dmb_place> places)
     {

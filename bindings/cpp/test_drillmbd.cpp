@@ -738,6 +738,32 @@ void arrays_are_spans()
     EXPECT(std::isfinite(sim.motion_at(place, {0.0, 0.1, 0.0}).velocity[0]));
 }
 
+// A body that falls: f is its acceleration.
+void a_state_has_a_rate()
+{
+    drillmbd::state_equation equation;
+    {
+        drillmbd::model model;
+        model.add_body(dmb_body_def_default());
+        model.compile();
+        drillmbd::sim sim(model);
+        equation = sim.state_equation();
+    }
+    double time = 1.0;
+    std::vector<double> y = equation.origin(&time), rate(y.size());
+    EXPECT(time == 0.0 && equation.count() == 6 && y.size() == 12 && equation.rows()[2] == 2);
+    equation.rate(0.5, y, rate);
+    EXPECT(std::fabs(rate[8] + 9.81) < 1e-12 && rate[2] == 0.0);
+    EXPECT(dmb_sim_time(equation.at()) == 0.5);
+    y[8] = -1.0;
+    equation.begin(0.5, y);
+    equation.rate(0.5, y, rate);
+    EXPECT(rate[2] == -1.0);
+    EXPECT(thrown_by([&] { equation.rate(0.5, {}, rate); }) == DMB_ERR_VALUE);
+    y[0] = std::nan("");
+    EXPECT(thrown_by([&] { equation.rate(0.5, y, rate); }) == DMB_ERR_NOT_FINITE);
+}
+
 void callbacks_do_not_throw_through_c()
 {
     const auto speed = [](double time, double *out) {
@@ -789,6 +815,7 @@ int main()
         errors_are_data();
         spans_of_all_kinds();
         arrays_are_spans();
+        a_state_has_a_rate();
         callbacks_do_not_throw_through_c();
     } catch (const std::exception &error) {
         std::cerr << "unexpected: " << error.what() << '\n';

@@ -55,12 +55,12 @@ def ctypes_of(declaration):
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
              "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p,
              "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p, "dmb_fatigue": ctypes.c_void_p,
-             "dmb_sensitivity": ctypes.c_void_p,
+             "dmb_sensitivity": ctypes.c_void_p, "dmb_state_equation": ctypes.c_void_p,
              "dmb_window": ctypes.c_void_p, "dmb_state_space": ctypes.c_void_p, "dmb_progress_fn": mbd.PROGRESS_FN,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "dmb_modes", "dmb_fatigue", "dmb_sensitivity", "dmb_window",
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "dmb_modes", "dmb_fatigue", "dmb_sensitivity", "dmb_state_equation", "dmb_window",
                       "dmb_state_space", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
@@ -114,7 +114,7 @@ class InterfaceTest(unittest.TestCase):
         prototypes = stored_prototypes()
         self.assertGreater(len(prototypes), 70)
         results = {"int32_t": ctypes.c_int32, "void": None, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32,
-                   "size_t": ctypes.c_size_t, "const char *": ctypes.c_char_p}
+                   "size_t": ctypes.c_size_t, "const char *": ctypes.c_char_p, "const dmb_sim *": ctypes.c_void_p}
         for name, (result, arguments) in prototypes.items():
             function = getattr(mbd._lib, name)
             self.assertIs(function.restype, results[result], name)

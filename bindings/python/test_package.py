@@ -456,6 +456,38 @@ class ArraysTest(unittest.TestCase):
         with self.assertRaises(mbd.Error):
             made.outputs([(place, "energy_error")])
 
+    def test_state_equation(self):
+        """By classical Runge-Kutta against the library's own steps."""
+        model = mbd.Model()
+        string = model.add_pipes(2, elements=1, damping_time=1e-5)
+        model.add_load(place=mbd.station(string, 1, 1.0), force=[0.0, 30.0, 0.0])
+        model.compile()
+        sim = model.sim()
+        before = sim.hash()
+        equation = sim.state_equation()
+        self.assertEqual(sim.hash(), before)
+        self.assertEqual(len(equation.y), 2 * len(equation.rows))
+        time, y, h = equation.time, equation.y, 1e-5
+        for _ in range(100):
+            first = equation(time, y)
+            second = equation(time + h / 2, [a + h / 2 * b for a, b in zip(y, first)])
+            third = equation(time + h / 2, [a + h / 2 * b for a, b in zip(y, second)])
+            fourth = equation(time + h, [a + h * b for a, b in zip(y, third)])
+            y = [a + h / 6 * (b + 2 * c + 2 * d + e) for a, b, c, d, e in zip(y, first, second, third, fourth)]
+            time += h
+            sim.step(h)
+        place = mbd.station(string, 1, 1.0)
+        there = equation.at(time, y)
+        self.assertAlmostEqual(there.time, 1e-3)
+        here = sim.output("velocity_y", place)
+        self.assertAlmostEqual(there.output("velocity_y", place), here, delta=1e-3 * abs(here))
+        self.assertEqual(equation.begin(time, y)[:3], [0.0, 0.0, 0.0])
+        self.assertAlmostEqual(equation.time, 1e-3)
+        with self.assertRaises(ValueError):
+            equation(0.0, [1.0])
+        with self.assertRaises(mbd.Error):
+            equation(float("nan"), equation.y)
+
     def test_outputs(self):
         names = mbd.output_names()
         self.assertIn("hook_load", names)

@@ -892,6 +892,42 @@ DMB_API int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t para
  * none. */
 DMB_API int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t parameter, uint64_t *kinks);
 
+/* ---- State equation ---------------------------------------------------------------------------------------------- */
+/* y' = f(t, y) of a scene, for integrators, optimisers and model exchange of others. y: n positions, then the n
+ * body-frame velocities [m/s, rad/s] of the same independent rows (dmb_query_row). Positions count from an origin, the
+ * pose (x0, R0) of each node in the sim when this is made:
+ *     x = x0 + R0 (y_X, y_Y, y_Z),   R = R0 exp(0, y_RY, y_RZ) exp(y_RX, 0, 0)
+ * [m, rad]; along and about the hole's axis of axial-torsional nodes. RX is unbounded; where RY and RZ come to 2.5 rad
+ * together, dmb_state_equation_begin moves the origin. Joints, drives and inputs stay in the states they have in the
+ * sim. Jumps of time functions are those of y': an integrator should stop there. */
+typedef struct dmb_state_equation dmb_state_equation;
+/* Copies the sim, which is left as it is and may be destroyed first; memory of its allocator; the calls below allocate
+ * nothing. Errors: DMB_ERR_UNSUPPORTED: the message names a part whose force is no function of pose, velocity and time
+ * (bristles, restitution laws, rock that is cut, integral gains, delay, lag and rate limit of actuators, places that
+ * are stuck), or by which positions depend on the path (nonholonomic joints, a motion drive across a part's rotation);
+ * _TOO_LARGE (clusters of joints), _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
+DMB_API int32_t dmb_state_equation_create(dmb_sim *sim, dmb_state_equation **equation);
+/* Sets *equation to NULL; does nothing within one of its calls. NULL-safe. */
+DMB_API void dmb_state_equation_destroy(dmb_state_equation **equation);
+/* [-] n, half the length of y; 0 for a handle of none. */
+DMB_API uint32_t dmb_state_equation_count(const dmb_state_equation *equation);
+/* Row of each coordinate, ascending, shape (n). */
+DMB_API int32_t dmb_state_equation_rows(const dmb_state_equation *equation, uint32_t *rows);
+/* y of the origin, shape (2 n), and its *time [s], which may be NULL. */
+DMB_API int32_t dmb_state_equation_origin(const dmb_state_equation *equation, double *time, double *y);
+/* rate = f(time, y), shape (2 n) both, one array or two; positions that joints make dependent are solved for from the
+ * origin on, so that equal y have equal bits. Errors: DMB_ERR_VALUE, _NOT_FINITE, _CALLBACK, _ROTATION; _GEOMETRY: too
+ * far from the origin, or a joint where its angles are not defined; _SINGULAR, _NO_CONVERGENCE: joints cannot be closed
+ * with these coordinates. O(elements), with joints more the farther the origin. */
+DMB_API int32_t dmb_state_equation_rate(dmb_state_equation *equation, double time, const double *y, double *rate);
+/* The state y at `time` becomes the origin and y its numbers, maybe of other rows. Errors as above, which change
+ * nothing but the sim below; also DMB_ERR_SINGULAR where n would change. */
+DMB_API int32_t dmb_state_equation_begin(dmb_state_equation *equation, double time, double *y);
+/* A sim in the state of the last call of _rate or _begin, for queries alone (ask.h: accelerations, reactions of joints,
+ * outputs); NULL where that call failed. Its sums and counts over a run are those of the sim copied, and there are no
+ * energies of the ledger. Lives as long as the equation. */
+DMB_API const dmb_sim *dmb_state_equation_sim(const dmb_state_equation *equation);
+
 /* ---- Drilling --------------------------------------------------------------------------------------------------- */
 enum {
     DMB_OPERATION_PICK_UP = 0,   /* pulled without turning */

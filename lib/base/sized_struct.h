@@ -87,6 +87,7 @@ int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
 #define DMB_HANDLE_WINDOW UINT32_C(0x4D425731)
 #define DMB_HANDLE_SENSITIVITY UINT32_C(0x4D425345)
 #define DMB_HANDLE_STATE_SPACE UINT32_C(0x4D425353)
+#define DMB_HANDLE_STATE_EQUATION UINT32_C(0x4D425351)
 
 /* True if object is not NULL and carries the stamp. */
 static inline bool dmb_handle_is(const void *object, uint32_t stamp)

@@ -57,7 +57,8 @@ typedef struct dmb_drive_variables {
     X(double, site_depth, s, NUMBERS)           /* [m] measured depth of the closest axis point */                    \
     X(uint32_t, site_segment, s, SEGMENTS)      /* [-] segment of the hole's axis it was found in */                  \
     X(double, site_penetration, s, NUMBERS)     /* [m] < 0: gap; system/assemble/wall_contact, where a hole is        \
-                                                   widened system/assemble/hole_cut */                                \
+                                                   widened system/assemble/hole_cut, of a state that is set           \
+                                                   analysis/state_equation/state_equation */                          \
     X(double, site_impact_speed, s, NUMBERS)    /* [m/s] normal speed at the start of the present contact */          \
     X(double, site_slip, 2 * s, NUMBERS)        /* [m/s] along the axis and around it */                              \
     X(double, site_bristle, 2 * sb, NUMBERS)    /* [m] bristle deflection, same directions */                         \
@@ -71,7 +72,8 @@ typedef struct dmb_drive_variables {
     X(double, axial_torsional_bristle, 2 * pb, NUMBERS) /* [m] */                                                     \
     X(int32_t, axial_torsional_sticks, pb, FLAGS) /* [-] */                                                           \
     /* system/assemble/drives, from time functions and velocity: */                                                   \
-    X(dmb_drive_variables, drives, d, NUMBERS)  /* state of each drive */                                             \
+    X(dmb_drive_variables, drives, d, NUMBERS)  /* state of each drive: system/assemble/drives, of a state that is    \
+                                                   set analysis/state_equation/state_equation */                      \
     X(double, actuator, 4 * act, NUMBERS)       /* [N, N m] dmb_actuator_flow of drives with one:                     \
                                                    system/assemble/actuators */                                       \
     X(double, load_factor, load, NUMBERS)       /* [-] time function of each load */                                  \
@@ -94,7 +96,8 @@ typedef struct dmb_drive_variables {
     X(double, force_potential, force, NUMBERS)  /* [J] of the callers' forces: system/assemble/caller_force */        \
     /* system/constrain/joint_motion, from pose: */                                                                   \
     X(double, joint_turn, 2 * j, NUMBERS)       /* [rad] RX and RY, revolutions counted:                              \
-                                                   system/constrain/joint_state */                                    \
+                                                   system/constrain/joint_state, of a state that is set               \
+                                                   analysis/state_equation/state_equation_pose */                     \
     X(double, joint_depth, j, NUMBERS)          /* [m] measured depth of the point of a joint on the hole's axis */   \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
@@ -105,7 +108,9 @@ typedef struct dmb_drive_variables {
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1, CLOCK)               /* times, step lengths: system/bounce_end, integrator/trial_step,     \
-                                                   integrator/step, system/start; powers: system/assemble/ledger */   \
+                                                   integrator/step, system/start,                                     \
+                                                   analysis/state_equation/state_equation; powers:                    \
+                                                   system/assemble/ledger */                                          \
     X(dmb_ledger, ledger, 1, LEDGER)            /* [J] accumulated, system/assemble/ledger */                         \
     X(dmb_counters, counters, 1, COUNTERS)      /* [-] system/bounce_end, integrator/trial_step, integrator/step,     \
                                                    system/start, system/constrain/cluster_projection,                 \
@@ -148,7 +153,8 @@ typedef struct dmb_drive_variables {
                                                    system/constrain/cluster_assembly */                               \
     X(double, drive_offset, d, NUMBERS)         /* [m, rad] coordinate of a driven joint at time 0:                   \
                                                    system/constrain/cluster_assembly */                               \
-    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
+    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster; put back after another was tried     \
+       analysis/state_equation/state_equation: */                                                                     \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)    /* [-] rows of a cluster, pivot rows first */                         \
     X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
@@ -256,7 +262,8 @@ typedef struct dmb_drive_variables {
                                                    system/assemble/point_motion; cleared by                           \
                                                    system/assemble/evaluation; without stiffness:                     \
                                                    system/solve/solve */                                              \
-    /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
+    /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster; of a state that is set              \
+       analysis/state_equation/state_equation_pose: */                                                                \
     X(double, cluster_weight, column)           /* [-, 1/m] unit of each column; 0: constrained */                    \
     X(double, cluster_metric, column)           /* [-, 1/m] unit of each column in projections */                     \
     X(uint32_t, cluster_place, column)          /* [-] place of each column in partition_column */                    \

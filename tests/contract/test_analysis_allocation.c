@@ -49,7 +49,8 @@ static void describe_string(subject *c)
 {
     dmb_pipe_def pipe = s1_pipe();
     open_model(c);
-    const dmb_wall_def hole = s1_hole();
+    dmb_wall_def hole = s1_hole();
+    hole.normal_law = DMB_NORMAL_IMPACT; /* without a memory, for the state equation */
     (void)add_wall(&c->s, &hole);
     c->part = add_pipes(&c->s, &pipe, 4);
     c->drive = add_simple_drive(&c->s, DMB_DRIVE_MOTION, c->part, DMB_X, add_constant(&c->s, 0.0));
@@ -299,6 +300,15 @@ static int32_t sensitivity(subject *c)
     return status;
 }
 
+static int32_t state_equation(subject *c)
+{
+    dmb_state_equation *made = NULL;
+    const int32_t status = dmb_state_equation_create(c->s.sim, &made);
+    GIVES_NOTHING_OUT(made);
+    dmb_state_equation_destroy(&made);
+    return status;
+}
+
 static int32_t transfer(subject *c)
 {
     return dmb_sim_transfer_state(c->s.sim, c->low);
@@ -338,6 +348,7 @@ static const row rows[] = {
     {"fatigue", fatigue, NULL, 0, 0},
     {"window", window, NULL, 0, 0},
     {"sensitivity", sensitivity, NULL, 0, 4},
+    {"state equation", state_equation, NULL, 0, 0},
     {"transfer", transfer, NULL, 1, 0},
 };
 

@@ -241,6 +241,20 @@ static int32_t sensitivity(subject *c)
     return status;
 }
 
+static int32_t state_equation(subject *c)
+{
+    double y[256], rate[256];
+    dmb_state_equation *made = NULL;
+    int32_t status = dmb_state_equation_create(c->r.sim, &made);
+    GIVES_NOTHING_OUT(made);
+    assert_in_range(dmb_state_equation_count(made), 0, 128);
+    if (status >= 0) must(&c->r, dmb_state_equation_origin(made, NULL, y));
+    if (status >= 0) status = dmb_state_equation_rate(made, dmb_sim_time(c->r.sim), y, rate);
+    if (status >= 0) status = dmb_state_equation_begin(made, dmb_sim_time(c->r.sim) + 1e-3, y);
+    dmb_state_equation_destroy(&made);
+    return status;
+}
+
 static int32_t transfer(subject *c)
 {
     return dmb_sim_transfer_state(c->r.sim, c->beside);
@@ -278,6 +292,7 @@ static const row rows[] = {
     {"array of the residual", NULL, ask_residual_array, 3, 0},
     {"create", create, NULL, 3, 0},
     {"sensitivity", sensitivity, NULL, 3, 1},
+    {"state equation", state_equation, NULL, 2, 0},
     {"transfer", transfer, NULL, 3, 0},
 };
 
@@ -299,7 +314,8 @@ static void fail_one(subject *c, const row *r, size_t k)
     if (c->asked < k) fail_msg("%s: %zu questions, fewer than before", r->name, c->asked);
     if (status != DMB_ERR_CALLBACK)
         fail_msg("%s: question %zu failed: %s: %s", r->name, k, dmb_status_name(status), dmb_sim_message(c->r.sim));
-    if (r->call != create && r->call != sensitivity && dmb_sim_message(c->r.sim)[0] == '\0')
+    if (r->call != create && r->call != sensitivity && r->call != state_equation &&
+        dmb_sim_message(c->r.sim)[0] == '\0')
         fail_msg("%s: question %zu failed: no message", r->name, k);
     if (!r->goes && rig_hash(&c->r) != before) fail_msg("%s: question %zu failed: the sim has changed", r->name, k);
 }

@@ -15,6 +15,7 @@ static struct {
     dmb_fatigue *fatigue;
     dmb_window *window;
     dmb_sensitivity *sensitivity;
+    dmb_state_equation *equation;
     dmb_sim *low, *high, *beside;
 } s;
 
@@ -107,12 +108,14 @@ static int set_up(void **state)
     must(&s.r, dmb_fatigue_create(s.r.sim, &fatigue, &s.place, 1, &s.fatigue));
     must(&s.r, dmb_window_create(s.r.sim, NULL, &reading, 1, &s.window));
     assert_true(dmb_sensitivity_create(s.beside, &p, 1, &s.sensitivity) >= 0);
+    must(&s.r, dmb_state_equation_create(s.beside, &s.equation));
     return 0;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
+    dmb_state_equation_destroy(&s.equation);
     dmb_sensitivity_destroy(&s.sensitivity);
     dmb_window_destroy(&s.window);
     dmb_fatigue_destroy(&s.fatigue);
@@ -311,6 +314,37 @@ static void of_fatigue_and_windows(void **state)
     NO_OBJECT(dmb_window_take(s.window, JUNK(dmb_sim)));
     NO_OBJECT(dmb_window_get(JUNK(dmb_window), 0, &reading));
     NO_OBJECT(dmb_window_reset(JUNK(dmb_window)));
+}
+
+static void of_state_equations(void **state)
+{
+    (void)state;
+    dmb_state_equation *made = NULL;
+    double time, y[64], rate[64];
+    uint32_t rows[32];
+    assert_in_range(dmb_state_equation_count(s.equation), 1, 32);
+    MISSING(dmb_state_equation_create(NULL, &made));
+    MISSING(dmb_state_equation_create(s.beside, NULL));
+    NO_OBJECT(dmb_state_equation_create(JUNK(dmb_sim), &made));
+    assert_null(made);
+    MISSING(dmb_state_equation_rows(NULL, rows));
+    MISSING(dmb_state_equation_rows(s.equation, NULL));
+    NO_OBJECT(dmb_state_equation_rows(JUNK(dmb_state_equation), rows));
+    MISSING(dmb_state_equation_origin(NULL, &time, y));
+    MISSING(dmb_state_equation_origin(s.equation, &time, NULL));
+    NO_OBJECT(dmb_state_equation_origin(JUNK(dmb_state_equation), &time, y));
+    expect(dmb_state_equation_origin(s.equation, NULL, y), DMB_OK, "origin without its time");
+    MISSING(dmb_state_equation_rate(NULL, 0.0, y, rate));
+    MISSING(dmb_state_equation_rate(s.equation, 0.0, NULL, rate));
+    MISSING(dmb_state_equation_rate(s.equation, 0.0, y, NULL));
+    NO_OBJECT(dmb_state_equation_rate(JUNK(dmb_state_equation), 0.0, y, rate));
+    MISSING(dmb_state_equation_begin(NULL, 0.0, y));
+    MISSING(dmb_state_equation_begin(s.equation, 0.0, NULL));
+    NO_OBJECT(dmb_state_equation_begin(JUNK(dmb_state_equation), 0.0, y));
+    assert_int_equal(dmb_state_equation_count(NULL), 0);
+    assert_int_equal(dmb_state_equation_count(JUNK(dmb_state_equation)), 0);
+    assert_null(dmb_state_equation_sim(NULL));
+    assert_null(dmb_state_equation_sim(JUNK(dmb_state_equation)));
 }
 
 static void of_sensitivities(void **state)
@@ -558,6 +592,7 @@ static void destroying_nothing_does_nothing(void **state)
     NOTHING_TO_DESTROY(fatigue);
     NOTHING_TO_DESTROY(window);
     NOTHING_TO_DESTROY(sensitivity);
+    NOTHING_TO_DESTROY(state_equation);
     assert_memory_equal(junk, before, sizeof junk);
 }
 
@@ -565,12 +600,13 @@ static void nothing_has_changed(void **state)
 {
     (void)state;
     const uint64_t before = rig_hash(&s.r);
-    void (*const all[])(void **) = {of_modes,         of_buckling,
-                                    of_responses,     of_stepped_sines_and_speeds,
-                                    of_state_spaces,  of_fatigue_and_windows,
-                                    of_sensitivities, of_torque_and_drag,
-                                    of_inputs,        of_events,
-                                    of_outputs,       of_queries};
+    void (*const all[])(void **) = {of_modes,           of_buckling,
+                                    of_responses,       of_stepped_sines_and_speeds,
+                                    of_state_spaces,    of_fatigue_and_windows,
+                                    of_sensitivities,   of_state_equations,
+                                    of_torque_and_drag, of_inputs,
+                                    of_events,          of_outputs,
+                                    of_queries};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) all[i](state);
     assert_true(rig_hash(&s.r) == before);
 }
@@ -586,6 +622,7 @@ int main(void)
         TEST(of_stepped_sines_and_speeds),
         TEST(of_state_spaces),
         TEST(of_fatigue_and_windows),
+        TEST(of_state_equations),
         TEST(of_sensitivities),
         TEST(of_torque_and_drag),
         TEST(of_names),

@@ -38,6 +38,7 @@ from .model import Model, motor_drive
 from .profile import Profile
 from .recorder import ProfileRecorder, Recorder
 from .sensitivity import Sensitivity, sensitivity_of
+from .state_equation import StateEquation
 from .sim import Progress, Sim
 from .state_space import Arrays, StateSpace
 from .window import Window
@@ -55,7 +56,7 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateSpace", "TorqueDrag", "Window", "output_name",
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace", "TorqueDrag", "Window", "output_name",
            "output_names", "output_quantity", "output_unit", "motor_drive", "operation_name", "response_output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]

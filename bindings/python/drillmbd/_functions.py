@@ -230,6 +230,14 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_spring_def_init": (c_int32, POINTER(SpringDef), c_uint32,),
     "dmb_spring_state_init": (c_int32, POINTER(SpringState), c_uint32,),
     "dmb_stabiliser_def_init": (c_int32, POINTER(StabiliserDef), c_uint32,),
+    "dmb_state_equation_begin": (c_int32, c_void_p, c_double, POINTER(c_double),),
+    "dmb_state_equation_count": (c_uint32, c_void_p,),
+    "dmb_state_equation_create": (c_int32, c_void_p, POINTER(c_void_p),),
+    "dmb_state_equation_destroy": (None, POINTER(c_void_p),),
+    "dmb_state_equation_origin": (c_int32, c_void_p, POINTER(c_double), POINTER(c_double),),
+    "dmb_state_equation_rate": (c_int32, c_void_p, c_double, POINTER(c_double), POINTER(c_double),),
+    "dmb_state_equation_rows": (c_int32, c_void_p, POINTER(c_uint32),),
+    "dmb_state_equation_sim": (c_void_p, c_void_p,),
     "dmb_state_space_dense": (c_int32, c_void_p, c_int32, POINTER(c_double),),
     "dmb_state_space_destroy": (None, POINTER(c_void_p),),
     "dmb_state_space_get_info": (c_int32, c_void_p, POINTER(StateSpaceInfo),),
@@ -515,6 +523,22 @@ FUNCTION_DOCS = {
         "Continues from the state of `from` in a sim of another model that has pipes more or fewer at the rig end of its strings; the start of its strings and its time functions may differ, all else must be of the same kind and number (ERR_VALUE names the difference). Pipes are matched from the far end and keep pose and state; added pipes start unstressed in line with the old rig end and move with it. Supports, drives and bodies fixed to the rig end act on the new one at once, so do it at rest; speeds that they do not allow are projected (NOTE_PROJECTED). Time, statistics, drives, contacts, joints, cut rock and the energy ledger continue; energies change by those of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses of the new model. Random numbers of pipes are drawn again. Added pipes of a tilted rig end may penetrate the wall: dmb_analysis_static settles the string, but restarts the ledger. Errors, with sim as before: also ERR_GEOMETRY (a joint does not fit), _SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE. O(number of elements).",
     "dmb_sim_value":
         "The same as a number, of one OUTPUT_...; NaN where it fails, dmb_sim_message and dmb_last_error say why. Example: dmb_sim_value(sim, OUTPUT_DRIVE_FORCE, (dmb_place){.part = drive}).",
+    "dmb_state_equation_begin":
+        "The state y at `time` becomes the origin and y its numbers, maybe of other rows. Errors as above, which change nothing but the sim below; also ERR_SINGULAR where n would change.",
+    "dmb_state_equation_count":
+        "[-] n, half the length of y; 0 for a handle of none.",
+    "dmb_state_equation_create":
+        "Copies the sim, which is left as it is and may be destroyed first; memory of its allocator; the calls below allocate nothing. Errors: ERR_UNSUPPORTED: the message names a part whose force is no function of pose, velocity and time (bristles, restitution laws, rock that is cut, integral gains, delay, lag and rate limit of actuators, places that are stuck), or by which positions depend on the path (nonholonomic joints, a motion drive across a part's rotation); _TOO_LARGE (clusters of joints), _NO_MEMORY, _CALLBACK, _NOT_FINITE.",
+    "dmb_state_equation_destroy":
+        "Sets *equation to NULL; does nothing within one of its calls. NULL-safe.",
+    "dmb_state_equation_origin":
+        "y of the origin, shape (2 n), and its *time [s], which may be NULL.",
+    "dmb_state_equation_rate":
+        "rate = f(time, y), shape (2 n) both, one array or two; positions that joints make dependent are solved for from the origin on, so that equal y have equal bits. Errors: ERR_VALUE, _NOT_FINITE, _CALLBACK, _ROTATION; _GEOMETRY: too far from the origin, or a joint where its angles are not defined; _SINGULAR, _NO_CONVERGENCE: joints cannot be closed with these coordinates. O(elements), with joints more the farther the origin.",
+    "dmb_state_equation_rows":
+        "Row of each coordinate, ascending, shape (n).",
+    "dmb_state_equation_sim":
+        "A sim in the state of the last call of _rate or _begin, for queries alone (ask.h: accelerations, reactions of joints, outputs); NULL where that call failed. Its sums and counts over a run are those of the sim copied, and there are no energies of the ledger. Lives as long as the equation.",
     "dmb_state_space_dense":
         "One of A, B, C, D, row by row.",
     "dmb_state_space_destroy":

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .model import Model
     from .fatigue import Fatigue, StringFatigue
     from .sensitivity import Sensitivity
+    from .state_equation import StateEquation
     from .profile import Profile
     from .state_space import Arrays, StateSpace
     from .window import Window
@@ -401,6 +402,11 @@ class Sim(Handle, analysis.Analyses):
         from .sensitivity import Sensitivity
         return Sensitivity(self, parameters, one_sided)
 
+    def state_equation(self) -> StateEquation:
+        """y' = f(t, y) of the scene from the present state on, for integrators of others: a StateEquation."""
+        from .state_equation import StateEquation
+        return StateEquation(self)
+
     def profile_recorder(self, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
                          interval: float = 0.0, string: StringId | str | None = None) -> ProfileRecorder:
         """A ProfileRecorder of `capacity` rows of quantities PROFILE_... at stations of a string."""
@@ -448,10 +454,11 @@ class Sim(Handle, analysis.Analyses):
 
 
 class SimAt(Sim):
-    """A sim that the library lends to a callback."""
+    """A sim that the library lends to a callback, or that `owner` owns."""
 
-    def __init__(self, of: Sim, handle: Any) -> None:
+    def __init__(self, of: Sim, handle: Any, owner: Any = None) -> None:
         self._handle, self._keep, self._scene, self._parts = c_void_p(handle), of._keep, of._scene, of._parts
+        self._teller, self._owner = of._teller, owner
 
     def close(self) -> None:
         """Nothing is destroyed: it is not ours."""
