@@ -93,7 +93,7 @@ private:
 };
 
 #if defined(DRILLMBD_EXCEPTIONS)
-// A call that was refused or failed, with nothing changed. what() is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
+// A call that was refused or failed, with nothing changed. The text of the exception is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
 // A refused value is known with its part, field, range and remedy (data(), the library's dmb_last_error).
 class error : public std::runtime_error {
 public:
@@ -105,7 +105,7 @@ public:
     DRILLMBD_NODISCARD std::int32_t status() const noexcept { return status_; }
     // Name of the status, "DMB_ERR_VALUE".
     DRILLMBD_NODISCARD const char *name() const noexcept { return dmb_status_name(status_); }
-    // All that the library knows of the failure: numbers of part and component, value, low, high. Defaults where the
+    // The details of the failure: numbers of part and component, value, low, high. Defaults where the
     // failure is none of the library.
     DRILLMBD_NODISCARD const dmb_error &data() const noexcept { return data_; }
     // Such as "pipe 3"; as the others empty where the failure has no such part.

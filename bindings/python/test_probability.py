@@ -263,7 +263,7 @@ segment = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 
     def test_what_varies_twice_is_refused(self):
         text = ALL + '[[variability.scatter]]\nname = "speed"\nkey = "time_function[0].segment.h0"\n' \
                      'distribution = "uniform"\nlow = "1 kN"\nhigh = "2 kN"\n'
-        with self.assertRaisesRegex(CannotDraw, "varies by something else"):
+        with self.assertRaisesRegex(CannotDraw, "varies by another key"):
             Draw(scene.loads(text))
         text = ALL + '[[variability.scatter]]\nname = "size"\nkey = "string[0].pipes[0].outer_diameter"\n' \
                      'distribution = "uniform"\nlow = "70 mm"\nhigh = "73 mm"\n'

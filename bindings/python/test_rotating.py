@@ -407,7 +407,7 @@ class CheckTest(FolderTest):
         out, summary = self.answer("speeds", "--check", "2")
         rows = summary["speeds_check"]["speeds"]
         self.assertEqual([row["time"] for row in rows][0], "steady", out)
-        self.assertIn("torque swings", rows[1]["time"], out)
+        self.assertIn("torque oscillates", rows[1]["time"], out)
         self.assertIn("avoid in time: 300 rpm", out)
         self.assertIn("s by the clock", out)
         with open(self.folder / "out" / "speeds_check.csv", encoding="utf-8") as file:
@@ -428,7 +428,7 @@ class CheckTest(FolderTest):
     def test_a_failed_run_is_no_all_clear(self):
         failed = speed_check.Result(10.0, error="no solution")
         self.assertEqual(failed.verdict, speed_check.FAILED)
-        self.assertEqual(speed_check.Result(10.0, 5.0, 0.6, 1.0).verdict, "torque swings")
+        self.assertEqual(speed_check.Result(10.0, 5.0, 0.6, 1.0).verdict, "torque oscillates")
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.4, 10.0).verdict, "lateral acceleration")
 
     def test_a_string_that_stays_on_its_axis(self):

@@ -150,7 +150,7 @@ class FieldTest(Refusals):
             model.compile()
             error = self.refused(model.sim)
             self.assertEqual(error.status, mbd.ERR_CALLBACK)
-            self.assertEqual(error.__cause__.field, "answer of the function")
+            self.assertEqual(error.__cause__.field, "result of the function")
         model = mbd.Model()
         body = model.add_body(mass=1.0)
         model.add_force(places=[body], function=lambda time, poses, speeds: "abcdef")

@@ -515,7 +515,8 @@ DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, 
 
 /* Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear:
  * two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too,
- * each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes. */
+ * each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle:
+ * ropes. */
 typedef struct dmb_coupling_def {
     uint32_t struct_size;
     int32_t reserved;

@@ -311,8 +311,7 @@ void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dm
 {
     const dmb_output_entry *name = dmb_output_name_of(output->quantity);
     if (name == NULL)
-        dmb_message_set(message, "output %u: quantity = %d, must be one that dmb_output_name knows", i,
-                        (int)output->quantity);
+        dmb_message_set(message, "output %u: quantity = %d, must be a DMB_OUTPUT_ number", i, (int)output->quantity);
     else
         dmb_message_set(message, "output %u, %s at pipe %u, fraction %g: %s; %s", i, name->name, output->place.pipe,
                         output->place.fraction, dmb_status_text(status), wanted(name->place));

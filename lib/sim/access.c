@@ -68,13 +68,13 @@ int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
         dmb_message_set(
             &sim->message,
             "sim: the callback of a time function, force or constraint failed or gave a value beyond +-1e30 on "
-            "the way from time %g",
+            "the step from time %g",
             sim->clock->time);
     if (status >= 0) return status;
     if (!sim->progress->cancelled) return dmb_sim_fail(sim, status, "sim", sim->message.text);
     dmb_message_set(&sim->message,
-                    "sim: the caller's progress function ended the call at time %g, %g %% of it done; make "
-                    "it again for its answer",
+                    "sim: the caller's progress function ended the call at time %g, %g %% of it done; repeat "
+                    "it for its result",
                     sim->clock->time, floor(100.0 * sim->progress->done + 0.5));
     return dmb_sim_fail(sim, DMB_ERR_CANCELLED, "sim", sim->message.text);
 }

@@ -391,7 +391,7 @@ static void cancel_at(scene *s, int call, uint32_t k, const answer *wanted, uint
         fail_msg("scene %d, call %d, at %u: status %d, told %u times, blocks %ld: %s", s->kind, call, k, (int)a.status,
                  t.calls, s->ledger.blocks - blocks, dmb_sim_message(sim));
     assert_non_null(strstr(dmb_sim_message(sim), "progress function"));
-    if (call != ADVANCE) assert_non_null(strstr(dmb_sim_message(sim), " % of it done; make it again for its answer"));
+    if (call != ADVANCE) assert_non_null(strstr(dmb_sim_message(sim), " % of it done; repeat it for its result"));
     if (call == SINE) { /* in its last accepted state: back to the one before */
         size_t size = 0;
         must(dmb_sim_snapshot_size(before, &size));

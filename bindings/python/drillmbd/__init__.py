@@ -16,7 +16,7 @@ matplotlib for pictures where they are there.
 
 Structs carry the names of the C interface without dmb_ and in capitals (dmb_pipe_def is PipeDef), with the same fields,
 units and defaults: help(drillmbd.PipeDef) shows them. Functions that take one also take its fields as keywords. A call
-that fails raises Error; a status above 0 is in the `status` of the answer. Everything is in SI units, angles in radians.
+that fails raises Error; a status above 0 is in the `status` of the result. Everything is in SI units, angles in radians.
 The library is the file that the environment variable DRILLMBD_LIBRARY names, otherwise the one beside this package,
 otherwise the one the system finds.
 """

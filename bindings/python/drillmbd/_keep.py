@@ -98,9 +98,9 @@ class Keep:
                         out[i] = answer[i]
                     return 0
                 if wanted == 1:
-                    out[0] = real(answer, "time_function", "answer of the function")
+                    out[0] = real(answer, "time_function", "result of the function")
                     return 0
-                for i, value in enumerate(reals(answer, "time_function", "answer of the function", wanted)):
+                for i, value in enumerate(reals(answer, "time_function", "result of the function", wanted)):
                     out[i] = value
                 return 0
             except BaseException as error:  # must not unwind through C
@@ -138,7 +138,7 @@ class Keep:
             try:
                 answer = function(time, [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)])
                 parts = list(answer) if provides else [answer]
-                for i, number in enumerate(reals(flat(parts.pop(0)), "force", "answer of the function", 6 * count)):
+                for i, number in enumerate(reals(flat(parts.pop(0)), "force", "result of the function", 6 * count)):
                     forces[i // 6][i % 6] = number
                 if provides & PROVIDES_TANGENT:
                     entries = [one for _ in range(2) for one in reals(flat(parts.pop(0)), "force", "tangent", 36 * count * count)]

@@ -1,4 +1,4 @@
-"""The parts of a model as messages need them: C queries answer a wrong part or place with a status alone."""
+"""The parts of a model as messages need them: C queries return only a status for a wrong part or place."""
 from __future__ import annotations
 
 import difflib
@@ -99,7 +99,7 @@ def named(part: Id) -> str:
 
 
 def closed(kind: str) -> Error:
-    """The Error of a question to an object that was given back."""
+    """The Error of a query to a destroyed object."""
     return Error(ERR_HANDLE, f"{kind}: handle = closed, must be open; close() or the end of its with block gave it back")
 
 

@@ -2584,7 +2584,7 @@ class BitDef(Sized):
 
 
 class CouplingDef(Sized):
-    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
+    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes."
     struct_size: int
     reserved: int
     name: bytes

@@ -94,7 +94,7 @@ def text(value: Any, part: str, field: str, room: int) -> bytes:
 def flat(values: Any) -> list[float]:
     """A number, a sequence, or a sequence of sequences as one list."""
     if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__") or getattr(values, "ndim", 1) == 0:
-        return [real(values, "answer of a function", "number")]
+        return [real(values, "result of a function", "number")]
     return [number for value in values for number in flat(value)]
 
 

@@ -1,4 +1,4 @@
-"""The command `drillmbd`, also `python3 -m drillmbd`: asks a scene file one question and writes the answer."""
+"""The command `drillmbd`, also `python3 -m drillmbd`: runs one analysis of a scene file and writes the results."""
 from __future__ import annotations
 
 import argparse
@@ -143,7 +143,7 @@ def parser() -> argparse.ArgumentParser:
                                  "traces; needs the library as WebAssembly, which bindings/web/build makes")
         if name == "speeds":
             command.add_argument("--check", nargs="?", type=int, const=12, default=0, metavar="N", help="runs N rotary speeds (12 where no number "
-                                 "is given) in time too and marks those where torque or lateral acceleration swing")
+                                 "is given) in time too and marks those where the torque oscillates or the lateral acceleration is large")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
     sweep = commands.add_parser("sweep", help="repeats a command for all combinations of some values", epilog=SWEEP,
@@ -271,7 +271,7 @@ def _add_probability(commands: Any) -> None:
 
 
 def _complete(asked: argparse.ArgumentParser) -> None:
-    """Answers a shell that requests completions of the line, and ends."""
+    """Completes the line for a shell, and ends."""
     try:
         argcomplete: Any = importlib.import_module("argcomplete")
     except ImportError:
@@ -404,7 +404,7 @@ kind = "eccentricity"          # excitation: eccentric pipes; or "drive", "load"
 component = "z"
 place = {place}
 """, "speeds": """[speeds]
-[[speeds.order]]               # eccentric pipes shake once a revolution
+[[speeds.order]]               # eccentric pipes excite once a revolution
 [[speeds.output]]
 component = "z"
 place = {place}

@@ -48,7 +48,7 @@ def to_rest(scene: Scene, sim: Sim, out: CommandOutput, linear: bool = False) ->
     values = scene.fields_of("static")
     if linear and (values.pop("slip_axial", 0.0), values.pop("slip_rotation", 0.0)) != (0.0, 0.0):
         out.note_text("the static state is taken without the slip of [static]: friction that it assumes is gone when "
-                         "the string swings")
+                         "the string vibrates")
     settled(scene, sim, out, values)
 
 

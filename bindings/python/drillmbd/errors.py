@@ -99,7 +99,7 @@ class WrongName(Error, AttributeError):
 
 
 class Unanswered(ArithmeticError):
-    """A question of the command that has no answer for a scene, with the reason."""
+    """An analysis that has no result for a scene, with the reason."""
 
 
 class Usage(ValueError):

@@ -137,7 +137,7 @@ def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
 
 
 def _refuse_changing(scene: Scene) -> None:
-    """Refuses an input in the place of a time function that changes. In a unit, an input that the importer does not set keeps its start
+    """Refuses an input that replaces a time function that changes. In a unit, an input that the importer does not set keeps its start
     value (FMI 3.0, 2.4.7); the unit would follow the time function instead, and the two importers' results would differ silently."""
     parts = _described(scene)
     for name, arguments in parts.values():
@@ -447,7 +447,7 @@ def _notes(scene: Scene) -> list[str]:
         notes.append("the scene has no [[input]]: the unit can be read but not steered")
     if scene.model.events() and scene.run.get("step"):
         notes.append("the scene has events, which are found by steps of the library's choice: "
-                     "[run] step counts for nothing")
+                     "[run] step is ignored")
     return notes
 
 

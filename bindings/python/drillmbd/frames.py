@@ -1,4 +1,4 @@
-"""Answers as pandas frames, units in the names of their columns; lists that can become one."""
+"""Results as pandas frames, units in the names of their columns; lists that can become one."""
 from __future__ import annotations
 
 from collections.abc import Sequence

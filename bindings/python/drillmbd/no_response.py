@@ -1,4 +1,4 @@
-"""Outputs that nothing moves but rounding. A linear answer of 1e-16 m is no amplitude: the excitation does not reach that output. It is
+"""Outputs that nothing moves but rounding. A linear response of 1e-16 m is no amplitude: the excitation does not reach that output. It is
 held against the motion of the strings in all directions, or against the other components of the same section."""
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def _log(axes: Any, which: str = "y") -> None:
 
 
 def _curve(axes: Any, time: Any, values: Any, name: str, number: int) -> None:
-    """A curve over time; one that swings too often for a line as its mean in a band of its least and largest values."""
+    """A curve over time; one that oscillates too often for a line is drawn as its mean in a band of its least and largest values."""
     numpy = need("numpy")
     steps = numpy.sign(numpy.diff(values))
     turns = int((steps[1:] * steps[:-1] < 0.0).sum())
@@ -276,9 +276,9 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
 
 
 def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[float, float], title: str = "", units: Units = SI) -> Any:
-    """Torque with its range, its swing and the lateral acceleration by rotary speed [rpm]. rows: speed, linear verdict, verdict in time,
-    torque [N m], swing [-], acceleration [m/s2]; bands of the linear analysis are shaded, limits are of swing and acceleration."""
-    figure, ((torque,), (swing,), (lateral,)) = _axes(3, 1, (11, 8), sharex=True)
+    """Torque with its range, its relative oscillation and the lateral acceleration by rotary speed [rpm]. rows: speed, linear verdict, verdict in time,
+    torque [N m], oscillation [-], acceleration [m/s2]; bands of the linear analysis are shaded, limits are of oscillation and acceleration."""
+    figure, ((torque,), (oscillation,), (lateral,)) = _axes(3, 1, (11, 8), sharex=True)
     known = [row for row in rows if row[3] == row[3]]
     rpm = [row[0] for row in known]
     factor, unit = units.axis("N m", [row[3] for row in known])
@@ -286,17 +286,17 @@ def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[floa
                     color=COLOURS[1], markersize=4)
     torque.set_ylabel(f"torque at the rig [{unit}],\nmean and range")
     acceleration = units.factor("m/s2")
-    for axes, values, limit, label in ((swing, [row[4] for row in known], limits[0], "torque swing [-]"), (
+    for axes, values, limit, label in ((oscillation, [row[4] for row in known], limits[0], "torque oscillation [-]"), (
             lateral, [acceleration * row[5] for row in known], acceleration * limits[1], units.head("lateral acceleration [m/s2]"))):
         axes.plot(rpm, values, marker="o", markersize=4, label="in time", **SINGLE)
         axes.axhline(limit, **_style(2), linewidth=1.0, label="limit")
         axes.set(ylabel=label, yscale="log" if values and min(values) > 0.0 else "linear")
         _legend(axes)
-    for axes in (torque, swing, lateral):
+    for axes in (torque, oscillation, lateral):
         for number, band in enumerate(bands):
             axes.axvspan(30.0 * band.low / math.pi, 30.0 * band.high / math.pi, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00",
-                         linewidth=0.0, label="avoid, linear" if number == 0 and axes is swing else None)
-    _legend(swing)
+                         linewidth=0.0, label="avoid, linear" if number == 0 and axes is oscillation else None)
+    _legend(oscillation)
     lateral.set_xlabel("rotary speed [rpm]")
     figure.suptitle(title)
     return figure
@@ -353,7 +353,7 @@ def fatigue(found: StringFatigue, title: str = "", units: Units = SI) -> Any:
 
 
 def causes(found: Response, names: Sequence[str], output: int = 0, label: str = "amplitude", title: str = "") -> Any:
-    """The causes that shake one output: its amplitude over frequency by each input with the input's own amplitude, and by all
+    """The causes that excite one output: its amplitude over frequency by each input with the input's own amplitude, and by all
     together. names: of the inputs; label: of the output, with its unit."""
     numpy = need("numpy")
     figure, ((axes,),) = _axes(1, 1, (11, 6))

@@ -406,7 +406,7 @@ class Study:
         return found.position[keep], found.displacement[keep]
 
     def assumptions(self) -> list[tuple[str, str]]:
-        """The basis of the answers."""
+        """The basis of the results."""
         return assumptions(self.scene, self.units, self.hash)
 
 
@@ -427,7 +427,7 @@ def _largest(values: Any) -> float | None:
 
 
 def report(scene: Scene, out: CommandOutput, options: Any) -> int:
-    """The page, in the folder of the answer."""
+    """The page, in the folder of the results."""
     if out.folder is None:
         raise Usage("report needs --output FOLDER")
     if not scene.pipes:

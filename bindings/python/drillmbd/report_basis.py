@@ -65,7 +65,7 @@ def _planned(title: str, shown_value: str, value: float | None, verdict: str) ->
 
 
 def assumptions(scene: Scene, units: Units, hash_of_state: str) -> list[tuple[str, str]]:
-    """The basis of the answers."""
+    """The basis of the results."""
     info, calls = scene.model.info(), scene.model.calls
     features = next((arguments[0].get("features") for name, arguments in calls if name == "compile"), None)
     left_out = [] if features is None else [one.name for one in enums.Feature

@@ -33,7 +33,7 @@ _AMOUNT = re.compile(r"[-+][0-9.]+(?:[eE][-+]?[0-9]+)?(?: ?[A-Za-z%][A-Za-z0-9/^
 
 
 class CommandOutput:
-    """The folder of the answer and the lines on the terminal."""
+    """The folder of the results and the lines on the terminal."""
 
     def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool, units: Units = SI,
                  language: Language = ENGLISH) -> None:

@@ -120,8 +120,8 @@ def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:
 
 def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any],
            note: Callable[[str], Any]) -> tuple[Linear, Any]:
-    """The answer of a linear analysis about the sliding string where one turns, else at rest; and the state. A sliding state that is
-    refused is replaced by the state at rest, and the reason is noted. settle: computes the static state; ask: the answer."""
+    """The result of a linear analysis about the sliding string where one turns, else at rest; and the state. A sliding state that is
+    refused is replaced by the state at rest, and the reason is noted. settle: computes the static state; ask: computes the result."""
     found = sliding(scene, analysis)
     if found is not None:
         try:

@@ -1,4 +1,4 @@
-"""Rotary speeds run in time: whether torque or lateral acceleration swing, beside the verdict of the linear analysis."""
+"""Rotary speeds run in time: whether the torque oscillates or the lateral acceleration is large, beside the verdict of the linear analysis."""
 from __future__ import annotations
 
 import concurrent.futures
@@ -27,7 +27,7 @@ REVOLUTIONS = 3         #: in it, at least
 PERIODS = 3             #: of the slowest torsional vibration, fixed at the rig, in it and before it, at least
 SWING = 0.5             #: [-] half the range of the torque over its mean, above which it swings
 GRAVITY = 9.81          #: [m/s2] root mean square of lateral acceleration above which the string leaves the wall by itself
-STEADY, TORQUE, LATERAL, FAILED = "steady", "torque swings", "lateral acceleration", "run failed"
+STEADY, TORQUE, LATERAL, FAILED = "steady", "torque oscillates", "lateral acceleration", "run failed"
 NO_DRIVE = "check in time: not assessed, because no drive turns the string at a speed; give a drive with component = \"rx\""
 
 
@@ -146,7 +146,7 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
         results.append(one)
         out.say(_line(one, _linear(found, one.speed), out))
     elapsed = time.perf_counter() - started
-    out.say(f"limits: torque swings where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
+    out.say(f"limits: torque oscillates where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
                f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which weight no longer holds the string on the "
                f"wall. {elapsed:.0f} s by the clock")
     _report(results, found, out, elapsed)
@@ -224,16 +224,16 @@ def _report(results: list[Result], found: Found, out: CommandOutput, elapsed: fl
         out.say(f"avoid in time: {speeds} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
                                                    if free else ""))
     elif not failed:
-        out.say(f"in time none of the {len(results)} speeds swings; speeds between them were not run")
+        out.say(f"in time none of the {len(results)} speeds oscillates; speeds between them were not run")
     if any(not one.error for one in results) and not any(one.acceleration for one in results if not one.error):
         out.note_text(f"check in time: {LATERAL} is not assessed, because no place of the string moves across its axis: axial-torsional pipes do not, and "
                       "others only where something excites them")
     if failed:
         out.note_text(f"check in time: {len(failed)} of {len(results)} runs failed and are not assessed: " +
                          "; ".join(f"{one.speed / RPM:.0f} rpm: {one.error}" for one in failed))
-    out.summary["speeds_check"] = {"limits": {"torque_swing": SWING, "acceleration_m_s2": GRAVITY}, "elapsed_s": elapsed, "speeds": [
-        {"speed_rpm": speed, "linear": linear, "time": verdict, "torque_N_m": torque, "torque_swing": swing, "acceleration_m_s2": acceleration}
+    out.summary["speeds_check"] = {"limits": {"torque_oscillation": SWING, "acceleration_m_s2": GRAVITY}, "elapsed_s": elapsed, "speeds": [
+        {"speed_rpm": speed, "linear": linear, "time": verdict, "torque_N_m": torque, "torque_oscillation": swing, "acceleration_m_s2": acceleration}
         for speed, linear, verdict, torque, swing, acceleration in rows]}
-    out.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]", "torque swing [-]",
+    out.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]", "torque oscillation [-]",
                                       "lateral acceleration [m/s2]"], rows)
     out.picture("speeds_check.png", lambda plots: plots.speeds_in_time(rows, found.bands, (SWING, GRAVITY), out.scene.title, out.units))

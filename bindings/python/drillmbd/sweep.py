@@ -1,4 +1,4 @@
-"""One command for all combinations of some values of a scene, and the numbers of the answers in one table."""
+"""One command for all combinations of some values of a scene, and the numbers of the results in one table."""
 from __future__ import annotations
 
 import csv

@@ -184,7 +184,7 @@ int32_t dmb_linear_check_change(const dmb_linear_turned *turned, const char *who
     if (!(turned->change > DMB_TURNED_CHANGE)) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&turned->linear->scene, turned->node);
     dmb_message_set(message,
-                    "%s: while parts turn coefficients change by %g of the forces of an answer, most at %s: in axes at "
+                    "%s: while parts turn coefficients change by %g of the forces of a result, most at %s: in axes at "
                     "rest the rotor must be round, in rotating axes its supports must be isotropic: %s",
                     who, turned->change, owner.text.text, then);
     return DMB_ERR_UNSUPPORTED;

@@ -1,4 +1,4 @@
-"""The answer of a study: probabilities with intervals, demands, rank correlations, cost; on the terminal, in summary.json, as tables."""
+"""The result of a study: probabilities with intervals, demands, rank correlations, cost; on the terminal, in summary.json, as tables."""
 from __future__ import annotations
 
 import argparse
@@ -92,7 +92,7 @@ class Asked:
 
 
 class Answer:
-    """One answer."""
+    """The result of one study."""
 
     def __init__(self, asked: Asked, output: CommandOutput) -> None:
         self.asked, self.sample, self.options, self.output = asked, asked.sample, asked.options, output

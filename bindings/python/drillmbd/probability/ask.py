@@ -48,7 +48,7 @@ def _own(texts: list[str]) -> dict[str, Own]:
 
 
 def probability(options: argparse.Namespace) -> int:
-    """Answers it; returns the exit status: 1 where no sample has margins."""
+    """Computes it; returns the exit status: 1 where no sample has margins."""
     for name in ("samples", "workers", "indices"):
         if getattr(options, name) is not None and getattr(options, name) < 1:
             raise Usage(f"--{name} {getattr(options, name)}: must be >= 1")
@@ -74,7 +74,7 @@ def probability(options: argparse.Namespace) -> int:
 
 
 def _alone(sample: SceneSample, options: argparse.Namespace, question: str) -> int:
-    """The answer of one scene by this process, which has the workers."""
+    """The result of one scene by this process, which has the workers."""
     asked = Asked(sample, options)
     output = CommandOutput(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
     output.started = options.started

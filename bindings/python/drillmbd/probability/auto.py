@@ -1,7 +1,7 @@
 """The question auto: torque and drag of all samples, and runs in time only of those near a limit and of a random part of the others.
 
 A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the probability part_of, by a
-random number of its own, so that they stand for 1/part_of samples each. With A the failures among the samples near a limit and, among the others, those that
+random number of its own, so that each represents 1/part_of samples. With A the failures among the samples near a limit and, among the others, those that
 torque and drag predict, and with B+ and B- the shares of the others that fail in time against the prediction and that do not fail against it,
 
     P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)

@@ -97,7 +97,7 @@ class Map:
                                 f"distribution, as variability.{table}[{i}].mean, or make it relative = true")
 
     def answer(self) -> int:
-        """All cells, then the map; returns the exit status: 1 where a cell has no answer."""
+        """All cells, then the map; returns the exit status: 1 where a cell has no result."""
         status, lock = 0, Lock(self.output.folder / "map", "--output folder") if self.output.folder else None  # a second master is refused here, not by each cell
         try:
             for number, values in enumerate(itertools.product(*(listed for _, listed in self.vary)), 1):
@@ -166,7 +166,7 @@ class Map:
             self.output.picture("map.png", lambda plots: plots.probability_map(wide, self._grid(), self.options.failure or ANY))
 
     def _grid(self) -> list[Any]:
-        """Probability and interval of each cell in order; None where there is no answer."""
+        """Probability and interval of each cell in order; None where there is no result."""
         name = self.options.failure or ANY
         found = [(one.estimates[name].probability, one.estimates[name].low, one.estimates[name].high) if name in one.estimates else None for one in self.cells]
         return found + [None] * (math.prod(len(values) for _, values in self.vary) - len(found))

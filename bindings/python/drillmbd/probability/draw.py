@@ -67,7 +67,7 @@ class Draw:
             key = f"time_function[{self._time_function_number(one)}]"
             if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters for name in scatter.keys) \
                     or sum(other.time_function == one.time_function for other in self.varies.processes) > 1:
-                raise CannotDraw(f"{one.name}: the time function {one.time_function} varies by something else too; make two time functions of it")
+                raise CannotDraw(f"{one.name}: the time function {one.time_function} varies by another key, too; use two time functions")
 
     def _refuse_twice(self) -> None:
         """A key that is written by two of them: one would be lost."""

@@ -189,18 +189,18 @@ def mpi_rank() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def mpi_together() -> Iterator[None]:
-    """An exception that is no answer to the user ends all ranks with its message: the others would wait for this one for ever."""
+    """An unexpected exception ends all ranks with its message: the others would wait for this one for ever."""
     try:
         yield
     except (Exception, KeyboardInterrupt) as error:
         from ..exit_status import FAILED as STATUS
         from ..exit_status import status_and_message
-        rank, told = mpi_rank()[0], status_and_message(error)
-        if told is None:
+        rank, message = mpi_rank()[0], status_and_message(error)
+        if message is None:
             traceback.print_exc()
-        print(f"drillmbd: rank {rank} of {mpi_rank()[1]} failed, all are ended: {told[1] if told else f'{type(error).__name__}: {error}'}",
+        print(f"drillmbd: rank {rank} of {mpi_rank()[1]} failed, all are ended: {message[1] if message else f'{type(error).__name__}: {error}'}",
               file=sys.stderr, flush=True)
-        need("mpi4py.MPI").COMM_WORLD.Abort(told[0] if told else STATUS)
+        need("mpi4py.MPI").COMM_WORLD.Abort(message[0] if message else STATUS)
         raise
 
 

@@ -100,7 +100,7 @@ class Places:
 
     @staticmethod
     def _factor(name: str, a: Any, b: Any, first: float, second: float) -> tuple[int, float]:
-        """Index of the value that stands there, and its factor."""
+        """Index of the value at that place, and its factor."""
         numpy = need("numpy")
         with numpy.errstate(divide="ignore", invalid="ignore"):
             one, other = first / a, second / b
@@ -325,7 +325,7 @@ class SoftString:
             _lib.dmb_model_destroy(byref(handle))
 
     def notes(self) -> list[str]:
-        """Loads that the answer leaves out, and the reason for long computing times."""
+        """Loads that the result neglects, and the reason for long computing times."""
         found = []
         if self.why:
             found.append(f"torque and drag: each sample reads the scene again, which takes about ten times as long, because {self.why}")

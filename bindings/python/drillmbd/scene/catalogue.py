@@ -42,7 +42,7 @@ class Entry:
 
 @dataclass
 class Found:
-    """The keys of the scene file that a name stands for, and a sentence about it."""
+    """The keys of the scene file that a name represents, and a sentence about it."""
     values: dict[str, Any]
     about: str
     source: str = ""
@@ -285,7 +285,7 @@ def _tables(holder: Any, path: Path, key: str) -> list[tuple[Path, dict[str, Any
 
 
 def expand(content: dict[str, Any], problems: Problems, folder: Any) -> None:
-    """Puts the values that names of a catalogue stand for in their place, below the keys that are given."""
+    """Puts the values that names of a catalogue represent in their place, below the keys that are given."""
     places = [place for path, string in _tables(content, (), "string") for place in _tables(string, path, "pipes")]
     for path, sub in _tables(content, (), "sub"):
         places += [place for where, section in _tables(sub, path, "section") for place in _tables(section, where, "pipes")]

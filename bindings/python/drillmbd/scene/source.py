@@ -111,7 +111,7 @@ def _comments(text: str) -> tuple[list[Comment], list[str]]:
 
 
 def replaced(content: Any, path: Path = ()) -> Iterable[Comment]:
-    """A comment for each key that others stand for in a saved file."""
+    """A comment for each key that other keys replace in a saved file."""
     if isinstance(content, list):
         for number, one in enumerate(content):
             yield from replaced(one, path + (number,))

@@ -144,7 +144,7 @@ def _powers(text: str) -> Powers:
 
 @functools.lru_cache(maxsize=1)
 def tables() -> tuple[dict[str, Unit], dict[str, dict[str, tuple[Unit, str]]]]:
-    """All units by their names; and by their names in small letters those that wrong capitals may stand for, each with
+    """All units by their names; and by their names in small letters those that wrong capitals may mean, each with
     the prefix that must be right ("mpa" may be mPa, "Mpa" may not)."""
     exact: dict[str, Unit] = {}
     loose: dict[str, dict[str, tuple[Unit, str]]] = {}

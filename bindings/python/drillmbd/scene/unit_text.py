@@ -94,7 +94,7 @@ def _after_sign(text: str, sign: str, before: float, signs: list[float]) -> floa
 
 
 def _of_name(text: str, name: str) -> tuple[dict[str, Unit], dict[str, Unit]]:
-    """Units that a name may stand for: as it is written, and in other capitals."""
+    """Units that a name may mean: as it is written, and in other capitals."""
     exact, loose = tables()
     name = {"'": "ft", '"': "in"}.get(name, name)
     if name.casefold() in REFUSED:
@@ -108,7 +108,7 @@ def _of_name(text: str, name: str) -> tuple[dict[str, Unit], dict[str, Unit]]:
 
 @functools.lru_cache(maxsize=2000)
 def meanings(text: str) -> tuple[tuple[bool, Unit, str], ...]:
-    """All units that a text may stand for, the one in its own capitals first: whether it is that one, unit, spelling.
+    """All units that a text may mean, the one in its own capitals first: whether it is that one, unit, spelling.
     Raises UnknownUnit."""
     choices: list[list[tuple[bool, Unit, str]]] = []
     powers = []

@@ -458,7 +458,7 @@ class Reader:
             self.problems.add(path + ("rank",), table.get("rank"), "must be a number between -1 and 1")
             return
         if any({pair[0], pair[1]} == {a, b} for a, b, _ in found.correlations):
-            self.problems.add(path + ("between",), pair, "stands there already; every pair once")
+            self.problems.add(path + ("between",), pair, "appears twice; give every pair once")
             return
         found.correlations.append((pair[0], pair[1], values["rank"]))
 

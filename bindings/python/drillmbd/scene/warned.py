@@ -1,5 +1,5 @@
 """Everything that a scene should warn of, in the same words in each command: values that were assumed or look wrong, pipes that were
-divided, settings by which an answer has nothing to show, and the warnings of the model check."""
+divided, settings for which a result is empty, and the warnings of the model check."""
 from __future__ import annotations
 
 import re

@@ -1,5 +1,5 @@
-"""A scene in words, as `check` prints it: the course of the hole, string, bit and operation, and settings by which an answer
-has nothing to show."""
+"""A scene in words, as `check` prints it: the course of the hole, string, bit and operation, and settings for which a result
+is empty."""
 from __future__ import annotations
 
 import math
@@ -31,7 +31,7 @@ def describe(scene: Scene, mass: float) -> list[str]:
 
 
 def trivial(scene: Scene) -> list[str]:
-    """Excitations and damping that the scene leaves out, with the answers that have nothing to show then."""
+    """Excitations and damping that the scene leaves out, with the results that are empty then."""
     calls = _calls(scene)
     found: list[str] = []
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
