@@ -104,9 +104,9 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
 /* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message if axial-torsional pipes would leave their
  * line. run/state_transfer_nodes */
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from);
-enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_BRISTLES = 1 };
-/* Memory of the wall contacts; or only of the bristles, after new contacts have been evaluated: without elapsed time, a
- * bristle sliding at its limit is indistinguishable from one sticking there. run/state_transfer_sites */
+enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_AGAIN = 1 };
+/* Memory of the wall contacts; or only what an evaluation of new contacts has overwritten: bristles (without elapsed
+ * time, one sliding at its limit is indistinguishable from one sticking there) and ages. run/state_transfer_sites */
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 
 /* [m] Offset of a node in `from` to that in the scene, along body x: rigid pipes added or removed move the node of

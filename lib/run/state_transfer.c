@@ -57,14 +57,9 @@ static void transfer_rows(dmb_sim *sim, uint32_t to, const dmb_sim *from, uint32
     memcpy(sim->constraint_offset + a->row, from->constraint_offset + b->row, a->rows * sizeof(double));
 }
 
-static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
+static void transfer_all_rows(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_scene *a = sim->scene, *b = from->scene;
-    DMB_COPY(now.joint_turn, 2 * (size_t)a->joint_count);
-    DMB_COPY(now.joint_depth, a->joint_count);
-    DMB_COPY(now.joint_segment, a->joint_count);
-    DMB_COPY(joint_state, a->joint_count);
-    DMB_COPY(joint_lock, 12 * (size_t)a->joint_count);
     for (uint32_t i = 0; i < a->joint_count; i++)
         transfer_rows(sim, a->joints[i].constraint, from, b->joints[i].constraint);
     for (uint32_t i = 0; i < a->coupling_count; i++)
@@ -74,6 +69,40 @@ static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t i = 0; i < a->drive_count; i++)
         if (a->drives[i].constraint != DMB_NONE)
             transfer_rows(sim, a->drives[i].constraint, from, b->drives[i].constraint);
+}
+
+static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_scene *a = sim->scene;
+    DMB_COPY(now.joint_turn, 2 * (size_t)a->joint_count);
+    DMB_COPY(now.joint_depth, a->joint_count);
+    DMB_COPY(now.joint_segment, a->joint_count);
+    DMB_COPY(joint_state, a->joint_count);
+    DMB_COPY(joint_lock, 12 * (size_t)a->joint_count);
+    transfer_all_rows(sim, from);
+}
+
+/* Reactions at joints, and of supports if the rig end is the same. */
+static void transfer_reactions(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_scene *scene = sim->scene;
+    const int same = scene->node_count == from->scene->node_count;
+    if (scene->cluster_count) transfer_all_rows(sim, from);
+    if (same) DMB_COPY(support_reaction, scene->constrained_count);
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION && (same || scene->drives[i].joint != DMB_NONE))
+            sim->now.drives[i].force = from->now.drives[i].force;
+}
+
+/* Bounces under way. Reactions remain those of the step before, which had their mean forces. */
+static int32_t transfer_bounces(dmb_sim *sim, const dmb_sim *from)
+{
+    int32_t found;
+    dmb_state_transfer_sites(sim, from, DMB_TRANSFER_AGAIN);
+    const int32_t status = dmb_bounces_go_on(sim, from, &found);
+    if (status < 0 || !found) return status;
+    transfer_reactions(sim, from);
+    return DMB_OK;
 }
 
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */
@@ -259,7 +288,8 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     status = check_joints(sim, &evaluation);
     if (status >= 0) status = dmb_system_restart(sim);
     if (status < 0) return status;
-    dmb_state_transfer_sites(sim, from, DMB_TRANSFER_BRISTLES);
+    status = transfer_bounces(sim, from);
+    if (status < 0) return status;
     transfer_ledger(sim, from);
     return status;
 }

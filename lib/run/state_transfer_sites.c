@@ -14,20 +14,36 @@
     memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
            (width) * sizeof *sim->now.field)
 
+static void transfer_touch(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old)
+{
+    if (dmb_scene_has_touch(sim->scene) && dmb_scene_has_touch(from->scene)) DMB_COPY_SITE(site_touch, DMB_TOUCH_SIZE);
+}
+
+/* Copies what the evaluation of a restart overwrites. */
+static void transfer_again(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old)
+{
+    if (sim->site_age[s] == 0 || from->site_age[old] == 0) return;
+    sim->site_age[s] = from->site_age[old];
+    transfer_touch(sim, s, from, old);
+}
+
 static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
     if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
         DMB_COPY_SITE(site_bristle, 2);
         DMB_COPY_SITE(site_sticks, 1);
     }
-    if (what == DMB_TRANSFER_BRISTLES) return;
+    if (what == DMB_TRANSFER_AGAIN) {
+        transfer_again(sim, s, from, old);
+        return;
+    }
     DMB_COPY_SITE(site_normal, 3);
     DMB_COPY_SITE(site_depth, 1);
     DMB_COPY_SITE(site_segment, 1);
     DMB_COPY_SITE(site_penetration, 1);
     DMB_COPY_SITE(site_impact_speed, 1);
     DMB_COPY_SITE(site_slip, 2);
-    if (dmb_scene_has_touch(sim->scene) && dmb_scene_has_touch(from->scene)) DMB_COPY_SITE(site_touch, DMB_TOUCH_SIZE);
+    transfer_touch(sim, s, from, old);
 }
 
 static void transfer_axial_torsional_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)

@@ -288,11 +288,6 @@ static void take_accelerations(dmb_sim *sim, double pseudo_factor)
     }
 }
 
-static int kind_of(const dmb_sim *sim, uint32_t u)
-{
-    return u < sim->scene->law_count ? DMB_POWER_IMPACT : DMB_POWER_DAMPING;
-}
-
 /* Energy of a damper c in a step by its law: c h ((s0 + s1)/2)^2, whereas the trapezoidal rule of the ledger gives c h
  * (s0^2 + s1^2)/2. At touch, where the power jumps, the difference would stay in the balance, so it is moved. */
 static void take_mean_speed(const dmb_evaluation *evaluation, uint32_t u)
@@ -301,7 +296,7 @@ static void take_mean_speed(const dmb_evaluation *evaluation, uint32_t u)
     const double change = sim->trial.bounce_speed[u] - sim->now.bounce_speed[u];
     const double c = dmb_bounce_damping(sim->scene, u);
     if (sim->now.bounce_force[u] == 0.0 || sim->trial.bounce_force[u] == 0.0) return;
-    dmb_ledger_move(sim, kind_of(sim, u), -0.25 * c * evaluation->step * change * change);
+    dmb_ledger_move(sim, dmb_bounce_power(sim, u), -0.25 * c * evaluation->step * change * change);
 }
 
 /* Replaces the powers of the step's own force by those of the law that acts from here on; the energy dissipated in the
@@ -311,7 +306,7 @@ static void exchange_power(dmb_sim *sim, uint32_t u)
     const double law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
     const double heat = (sim->bounce_stays[u] ? 0.0 : dmb_bounce_heat(sim, &sim->trial, u)) - sim->bounce_warmth[u];
     const double all = (sim->bounce_own[u] - law) * sim->trial.bounce_speed[u];
-    sim->clock->power[kind_of(sim, u)] += heat;
+    sim->clock->power[dmb_bounce_power(sim, u)] += heat;
     sim->clock->power[DMB_POWER_POTENTIAL] += all - heat;
     sim->clock->power[DMB_POWER_INERTIA] -= all;
 }
@@ -325,17 +320,6 @@ static double aged(dmb_sim *sim, double age, int touches, int closed)
     return touches ? 1.0 : fmin(age + 1.0, DMB_BOUNCE_STEPS);
 }
 
-/* [W] Power of the wall's damping in a configuration, <= 0. */
-static double wall_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
-{
-    return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
-}
-
-static double rubbed(const dmb_site_force *f)
-{
-    return f->friction[0] * f->slip[0] + f->friction[1] * f->slip[1];
-}
-
 /* The dissipation of an opening law at the start of the step is contained in that of its mean force: removes it from
  * the trapezoidal rule. */
 static void forget_heat(const dmb_evaluation *evaluation, uint32_t s)
@@ -343,7 +327,7 @@ static void forget_heat(const dmb_evaluation *evaluation, uint32_t s)
     dmb_sim *sim = evaluation->sim;
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
-    dmb_ledger_move(sim, DMB_POWER_IMPACT, 0.5 * evaluation->step * wall_heat(sim, &sim->now, s, &f));
+    dmb_ledger_move(sim, DMB_POWER_IMPACT, 0.5 * evaluation->step * dmb_site_heat(sim, &sim->now, s, &f));
 }
 
 /* Adds the powers of the law if it acts from here on, less those of the step's own force as counted by the kernel. */
@@ -352,12 +336,13 @@ static void exchange_site_power(const dmb_evaluation *evaluation, uint32_t s)
     dmb_sim *sim = evaluation->sim;
     site_step of;
     site_step_of(evaluation, s, &of);
-    double impact = 2.0 * of.taken / evaluation->step, friction = -(2.0 / evaluation->own_factor) * rubbed(&of.own);
-    double all = of.own.normal_force * of.law.rate - rubbed(&of.own);
+    double impact = 2.0 * of.taken / evaluation->step,
+           friction = -(2.0 / evaluation->own_factor) * dmb_site_rubbed(&of.own);
+    double all = of.own.normal_force * of.law.rate - dmb_site_rubbed(&of.own);
     if (!site_stays(sim, s)) {
-        impact += wall_heat(sim, &sim->trial, s, &of.law);
-        friction += rubbed(&of.law);
-        all += rubbed(&of.law) - of.law.normal_force * of.law.rate;
+        impact += dmb_site_heat(sim, &sim->trial, s, &of.law);
+        friction += dmb_site_rubbed(&of.law);
+        all += dmb_site_rubbed(&of.law) - of.law.normal_force * of.law.rate;
     }
     sim->clock->power[DMB_POWER_IMPACT] += impact;
     sim->clock->power[DMB_POWER_FRICTION] += friction;

@@ -52,6 +52,11 @@ void dmb_bounces_add_accelerations(const dmb_sim *sim, double *acceleration);
  * and counters. */
 void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found);
 
+/* After a restart with the state of another sim, whose contact points have their ages (run/state_transfer_sites):
+ * stops and springs get theirs, and those contacts of all kinds that have mean forces in the next step leave the
+ * accelerations and powers of now. *found: the last step may have had mean forces. Errors as dmb_factor_mass. */
+int32_t dmb_bounces_go_on(dmb_sim *sim, const dmb_sim *from, int32_t *found);
+
 /* Stuck places that release, and the energy dissipated by it. */
 
 /* Adds the energy `before` [J] less the energy stored now to the losses in the ledger. */

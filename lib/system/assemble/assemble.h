@@ -97,6 +97,10 @@ void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration
 /* [N] Elastic part of the normal force of a contact point in `force`. */
 double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
                               const dmb_site_force *force);
+/* [W] Power of the wall's damping under a force of contact point `site` in a configuration, <= 0; and of its friction.
+ */
+double dmb_site_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t site, const dmb_site_force *f);
+double dmb_site_rubbed(const dmb_site_force *f);
 /* Adds factor times the force of a contact point in `force` to generalised forces, shape (row). */
 void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, double factor,
                         const dmb_site_force *force, double *rows);

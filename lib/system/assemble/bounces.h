@@ -73,6 +73,9 @@ int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law,
 /* [W] Power of the damper of a law in a configuration, <= 0. */
 double dmb_bounce_heat(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t u);
 
+/* DMB_POWER_... of the damper of a law. */
+int dmb_bounce_power(const dmb_sim *sim, uint32_t u);
+
 /* Stores a stop as open: the coordinate is between its bounds in the trial. */
 void dmb_bounce_rest(dmb_sim *sim, uint32_t u);
 

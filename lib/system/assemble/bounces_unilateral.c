@@ -48,6 +48,11 @@ double dmb_bounce_heat(const dmb_sim *sim, const dmb_configuration *configuratio
     return -(configuration->bounce_force[u] - end.force) * configuration->bounce_speed[u];
 }
 
+int dmb_bounce_power(const dmb_sim *sim, uint32_t u)
+{
+    return u < sim->scene->law_count ? DMB_POWER_IMPACT : DMB_POWER_DAMPING;
+}
+
 static void note(dmb_sim *sim, uint32_t u, const dmb_bounce *law)
 {
     sim->trial.bounce_place[u] = law->place;

@@ -1,0 +1,120 @@
+/* A run that is handed over to a new sim of the same model after every step, through bounces that the steps do not
+ * resolve, against the run that stays: contacts keep their mean forces (eq:unilateral.mean, eq:contact.mean). At
+ * spectral radius 1 accelerations are all that a step leaves behind, so that both are the same run to rounding. */
+#include <math.h>
+#include <string.h>
+
+#include "drillmbd/scene.h"
+#include "mechanism.h"
+
+enum { ON_SPRINGS, IN_STOPS, IN_A_HOLE, KINDS };
+static const char *const names[KINDS] = {"on one-sided springs", "in stops", "in a hole"};
+enum { STEPS = 120 };
+static const double h = 1e-3, mass = 2.0;
+
+static void add_springs(rig *s, dmb_id body, double k)
+{
+    for (int i = 0; i < 2; i++) {
+        dmb_spring_def def = dmb_spring_def_default();
+        dmb_id id = {0, 0};
+        def.place_a = dmb_station(ground_id, 0, 0.0);
+        def.place_b = dmb_station(body, 0, 0.0);
+        def.offset_a[0] = def.offset_b[0] = 0.1;
+        def.offset_a[1] = i == 0 ? 0.5 : -0.5;
+        def.acts = DMB_SPRING_COMPRESSION;
+        def.stiffness = k;
+        def.damping = 0.1 * mass / h;
+        def.free_length = 0.48;
+        must_model(s, dmb_model_add_spring(s->model, &def, &id));
+    }
+}
+
+static void add_stops(rig *s, dmb_id body, double k)
+{
+    dmb_joint_def play = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), dmb_station(body, 0, 0.0));
+    for (int i = 0; i < 3; i++) play.stop_low[i] = -0.02, play.stop_high[i] = 0.02;
+    play.stop_stiffness = k;
+    play.stop_damping = 0.1 * mass / h;
+    (void)add_joint(s, &play);
+}
+
+static void add_hole(rig *s, double k)
+{
+    dmb_wall_def wall = s1_hole();
+    wall.diameter = 0.2;
+    wall.stiffness = k;
+    wall.restitution = 0.7;
+    (void)add_wall(s, &wall);
+}
+
+/* (h w)^2 = 100: a bounce takes a few steps. */
+static dmb_id open_scene(rig *s, int kind)
+{
+    const double k = 100.0 * mass / (h * h);
+    dmb_body_def body = dmb_body_def_default();
+    const double start[6] = {0.0, 3.0, 0.31, 5.0, 0.5, 0.0};
+    const dmb_sim_options options = sharp_options(1.0, 1e-12);
+    memcpy(body.velocity, start, sizeof start);
+    body.mass = mass;
+    body.inertia[0] = 0.004, body.inertia[1] = 0.006, body.inertia[2] = 0.005;
+    body.position[0] = 1.0;
+    body.contact_diameter = 0.16;
+    body.contact_length = 0.1;
+    rig_open(s, 0.0, 0.0, -9.81);
+    if (kind == IN_A_HOLE) add_hole(s, k);
+    if (kind != IN_A_HOLE) body.position[0] = 0.0, body.contact_diameter = 0.0;
+    const dmb_id id = add_body(s, &body);
+    if (kind == ON_SPRINGS) add_springs(s, id, k);
+    if (kind == IN_STOPS) add_stops(s, id, k);
+    assert_int_equal(mechanism_start(s, &options), DMB_OK);
+    return id;
+}
+
+/* Hands the state to a new sim of the same model. */
+static dmb_id hand_over(rig *s, int kind)
+{
+    rig next;
+    const dmb_id id = open_scene(&next, kind);
+    must(&next, dmb_sim_transfer_state(next.sim, s->sim));
+    rig_close(s);
+    *s = next;
+    return id;
+}
+
+static double apart(const rig *a, dmb_id on_a, const rig *b, dmb_id on_b)
+{
+    const dmb_motion ma = motion_at(a, dmb_station(on_a, 0, 0.0), DMB_FRAME_WORLD);
+    const dmb_motion mb = motion_at(b, dmb_station(on_b, 0, 0.0), DMB_FRAME_WORLD);
+    double most = 0.0;
+    for (int i = 0; i < 6; i++) most = fmax(most, fabs(ma.velocity[i] - mb.velocity[i]));
+    return most;
+}
+
+static void a_run_handed_over_in_bounces_is_the_same_run(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        rig a, b;
+        double most = 0.0;
+        const dmb_id id = open_scene(&a, kind);
+        (void)open_scene(&b, kind);
+        for (int n = 0; n < STEPS; n++) {
+            must(&a, dmb_sim_step(a.sim, h, NULL));
+            must(&b, dmb_sim_step(b.sim, h, NULL));
+            const dmb_id next = hand_over(&b, kind);
+            most = fmax(most, apart(&a, id, &b, next));
+        }
+        const dmb_statistics sa = statistics_of(&a), sb = statistics_of(&b);
+        assert_true(sa.bounces > 2);
+        assert_true(sa.bounces == sb.bounces);
+        check_below(names[kind], most, 1e-7);
+        rig_close(&a);
+        rig_close(&b);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_run_handed_over_in_bounces_is_the_same_run)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
