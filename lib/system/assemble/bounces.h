@@ -49,7 +49,9 @@ void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[
 /* Adds `factor` times the force by which gyroscopic forces have no power in a step with mean forces
  * (eq:unilateral.gyroscopic), and its tangent. */
 void dmb_bounces_add_gyroscopic(dmb_evaluation *evaluation, double factor);
-/* Adds it once if a mean force has acted in the step. */
+/* Adds it once if a mean force has acted in the step. It stays if mean forces vanish again in a later iteration, until
+ * the stage ends: without it such steps of bodies that turn by 1 rad have other solutions, whose energy grows without
+ * bound (physics_spinning_stops). */
 void dmb_bounces_turn(dmb_evaluation *evaluation);
 /* Node that a step with mean forces has turned much further than the speed at its start would: another solution of its
  * equations, about a turn away. DMB_NONE: none. */

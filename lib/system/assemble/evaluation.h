@@ -46,6 +46,14 @@ typedef struct dmb_evaluation {
     uint32_t element;  /* the element, if status is DMB_ERR_ROTATION */
 } dmb_evaluation;
 
+/* 1: rounding of stiff springs counts. Before the first correction of a step, a residual of the size of a stiff
+ * spring's rounding may be that of a soft part, which would then move without its force; one correction places it
+ * correctly. Without a step, as in linearisations, rounding always counts. */
+static inline int dmb_rounding_counts(const dmb_evaluation *evaluation)
+{
+    return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
+}
+
 /* Residual into sim->residual, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
  * DMB_ERR_ROTATION, DMB_ERR_NOT_FINITE. */
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);

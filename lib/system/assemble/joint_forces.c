@@ -55,14 +55,6 @@ static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *j
     return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
 }
 
-/* 1: rounding of stiff springs counts. Before the first correction of a step, a residual of the size of a stiff
- * spring's rounding may be that of a soft part, which would then move without its force; one correction places it
- * correctly. Without a step, as in linearisations, rounding always counts. */
-static int rounding_counts(const dmb_evaluation *evaluation)
-{
-    return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
-}
-
 /* Mean force of the stop of coordinate i. */
 static void take_own_stop(dmb_evaluation *evaluation, uint32_t u, coordinate_forces *f, int i, dmb_joint_force *law)
 {
@@ -93,7 +85,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         f->by_position[i] += law.by_position;
         f->by_speed[i] += law.by_speed;
         const double k = stiffness_times_reach(evaluation->sim, joint, i, law.by_position + f->mean_slope[i]);
-        if (rounding_counts(evaluation)) evaluation->rounding += k * k;
+        if (dmb_rounding_counts(evaluation)) evaluation->rounding += k * k;
         evaluation->power[DMB_POWER_POTENTIAL] += (law.spring + law.stop) * f->speed[i];
         evaluation->power[DMB_POWER_DAMPING] += law.damper * f->speed[i];
         evaluation->power[DMB_POWER_FRICTION] += law.friction * f->speed[i];

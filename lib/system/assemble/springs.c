@@ -275,7 +275,7 @@ static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *s
 {
     const double reach = dmb_vec3_norm(spring->span) + dmb_vec3_norm(m->a.x) + dmb_vec3_norm(m->b.x);
     const double k = m->force.by_elongation * reach;
-    if (!evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0) evaluation->rounding += k * k;
+    if (dmb_rounding_counts(evaluation)) evaluation->rounding += k * k;
 }
 
 /* Replaces the force of the law by the mean force in a step that has one; the damper of a two-sided spring stays.

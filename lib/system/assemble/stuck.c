@@ -197,8 +197,7 @@ static void count_rounding(dmb_evaluation *evaluation, uint32_t i, const dmb_sce
     const double *x0 = evaluation->sim->stuck_anchor + 12 * (size_t)i + 9;
     const double reach = dmb_vec3_norm(m->point.x) + dmb_vec3_norm(x0);
     const double k = fmax(stuck->stiffness[0], stuck->stiffness[2]) * reach;
-    if (!evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0)
-        evaluation->rounding += k * k + stuck->stiffness[1] * stuck->stiffness[1];
+    if (dmb_rounding_counts(evaluation)) evaluation->rounding += k * k + stuck->stiffness[1] * stuck->stiffness[1];
 }
 
 static void gather(dmb_evaluation *evaluation, uint32_t i)
