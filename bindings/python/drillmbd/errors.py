@@ -110,7 +110,7 @@ def last_message() -> bytes:
     """The message of the thread's last failing call."""
     from ._structs import ErrorStruct
     last: Any = ErrorStruct()
-    return last.message if lib.dmb_last_error(byref(last)) >= 0 else b""
+    return bytes(last.message) if lib.dmb_last_error(byref(last)) >= 0 else b""
 
 
 def check(status: int, message: bytes = b"") -> int:

@@ -79,7 +79,7 @@ def _options(name: str, options: Any) -> bytes:
 
 def _settings(scene: Scene) -> bytes:
     """Options of compile, sim and static state, the length of steps, and the outputs."""
-    compiled = next((arguments[0] for name, arguments in scene.model.calls if name == "compile"), {})
+    compiled: dict[str, Any] = next((arguments[0] for name, arguments in scene.model.calls if name == "compile"), {})
     found = [_options("compile", CompileOptions(**compiled)), _options("sim", SimOptions(**scene.sim)),
              _options("static", StaticOptions(**scene.fields_of("static"))), struct.pack("<dI", _step(scene), len(scene.outputs))]
     for _, place, quantity in scene.outputs:

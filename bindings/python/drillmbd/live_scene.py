@@ -9,10 +9,9 @@ from ctypes import Array
 from typing import Any
 
 from . import enums
-from ._record import Record
+from ._record import Record, _is_pointer
 from ._structs import DriveDef, Id, Place, SimOptions, StaticOptions
 from .errors import Usage
-from .fmu import ARRAYS, CALLS, _is_pointer
 from .language import phrase
 from .live_strings import strings_of
 from .model import _DEFINITIONS, Model, remake
@@ -21,6 +20,12 @@ from .scene.largest import bounded
 from .scene.segments import by_numbers
 
 Call = tuple[str, tuple[Any, ...]]
+#: Calls of a description that a record holds; others are functions of Python.
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_stabiliser", "add_joint", "add_coupling", "add_drive", "add_load", "add_spring", "add_stuck",
+         "add_input", "add_event", "add_pipes", "add_time_function", "add_hole_sections", "set_environment", "set_name", "compile"}
+#: Arrays that their structs point to: field, the field with its length, numbers in a row.
+ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)), "add_wall": (("survey", "survey_count", 3),),
+          "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
 RPM = 30.0 / math.pi
 #: Factor and unit that the page shows, by the unit in SI.
 SHOWN = {"rad/s": (RPM, "rpm"), "m/s": (1e3, "mm/s"), "N": (1e-3, "kN"), "N m": (1e-3, "kN m"), "m3/s": (6e4, "l/min"), "-": (1.0, ""),
