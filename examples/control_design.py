@@ -37,7 +37,7 @@ def plant():
     inputs = [mbd.Excitation(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.EXCITATION_SETTING, torque), (mbd.EXCITATION_LOAD, load))]
     outputs = [(mbd.OUTPUT_ROTATION, mbd.station(string)), (mbd.OUTPUT_ROTARY_SPEED, mbd.station(string)),
                 (mbd.OUTPUT_BIT_SPEED, mbd.station(string))]
-    outputs = [mbd.ResponseOutput(kind=mbd.RESPONSE_OUTPUT, component=quantity, place=place) for quantity, place in outputs]
+    outputs = [(place, quantity) for quantity, place in outputs]
     return sim.state_space(inputs, outputs, modes=modes, mode_list=torsional, shift=0.02)
 
 

@@ -25,7 +25,7 @@ typedef struct turning {
     dmb_model *model;
     dmb_sim *sim;
     dmb_id string, drive;
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     double linear[OUTPUTS];           /* amplitude at the frequency */
     double amplitudes[OUTPUTS][4][2]; /* mean, 1x, 2x, 3x */
     dmb_stepped_sine_report report;
@@ -66,14 +66,13 @@ static int32_t describe(turning *t)
 
 static void ask(turning *t)
 {
-    for (int k = 0; k < OUTPUTS; k++) t->outputs[k] = dmb_response_output_default();
+    for (int k = 0; k < OUTPUTS; k++) t->outputs[k] = (dmb_output){.quantity = DMB_OUTPUT_VIBRATION};
     t->outputs[0].place = dmb_station(t->string, PIPES / 2, 0.0);
-    t->outputs[0].component = DMB_Y;
+    t->outputs[0].quantity += DMB_Y;
     t->outputs[1].place = t->outputs[0].place;
-    t->outputs[1].component = DMB_Z;
-    t->outputs[2].kind = DMB_RESPONSE_CONTACT;
+    t->outputs[1].quantity += DMB_Z;
+    t->outputs[2].quantity = DMB_OUTPUT_CONTACT_NORMAL_FORCE;
     t->outputs[2].place.pipe = PIPES / 2;
-    t->outputs[2].component = DMB_Z;
 }
 
 static int32_t find_linear(turning *t)

@@ -72,9 +72,9 @@ places = [mbd.station(string, pipe, 1.0) for pipe in range(PIPES)]
 along = [pipe + 1.0 for pipe in range(PIPES)]
 print("modes [Hz]: " + ", ".join(f"{frequency:.2f}" for frequency in modes.frequencies[:8]))
 middle = mbd.station(string, PIPES // 2, 0.5)
-response = sim.response([mbd.Excitation(kind=mbd.EXCITATION_ECCENTRICITY)], [mbd.response_output(middle, mbd.Z), mbd.response_output(tip, mbd.RX)],
+response = sim.response([mbd.Excitation(kind=mbd.EXCITATION_ECCENTRICITY)], [(middle, "vibration_z"), (tip, "vibration_rx")],
                         frequency_low=0.5, frequency_high=40.0, points=200)
-bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [mbd.response_output(middle, mbd.Z)], [1e-6],
+bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [(middle, "vibration_z")], [1e-6],
                              speed_low=20.0 * RPM, speed_high=300.0 * RPM, points=150)
 print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.high / RPM:.0f}" for band in bands) or "none"))
 

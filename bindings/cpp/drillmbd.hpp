@@ -813,7 +813,11 @@ public:
         check(dmb_response_transfer(handle_, input, output, reinterpret_cast<double *>(answer.data())));
         return answer;
     }
-    void write_csv(const char *path) const { check(dmb_response_write_csv(handle_, path)); }
+    // sim: for the names of parts in its heads.
+    void write_csv(const char *path, const dmb_sim *sim = nullptr) const
+    {
+        check(dmb_response_write_csv(handle_, sim, path));
+    }
 #endif
 };
 
@@ -1019,7 +1023,7 @@ public:
     }
 
     DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_excitation> inputs,
-                                                   span<const dmb_response_output> outputs,
+                                                   span<const dmb_output> outputs,
                                                    const dmb_response_options *options = nullptr)
     {
         dmb_response *found = nullptr;
@@ -1028,7 +1032,7 @@ public:
         return drillmbd::response(found);
     }
     // Runs on until the Fourier amplitudes at a frequency [Hz] have settled.
-    DRILLMBD_NODISCARD sine_response sine(double frequency, span<const dmb_response_output> outputs,
+    DRILLMBD_NODISCARD sine_response sine(double frequency, span<const dmb_output> outputs,
                                           const dmb_stepped_sine_options *options = nullptr)
     {
         const dmb_stepped_sine_options used = options != nullptr ? *options : dmb_stepped_sine_options_default();
@@ -1043,7 +1047,7 @@ public:
         return answer;
     }
     // Bands of rotary speed to avoid, `room` of them at most; limits: amplitudes that are allowed, one for each output.
-    DRILLMBD_NODISCARD speed_bands speeds(span<const dmb_order> orders, span<const dmb_response_output> outputs,
+    DRILLMBD_NODISCARD speed_bands speeds(span<const dmb_order> orders, span<const dmb_output> outputs,
                                           span<const double> limits, const dmb_speeds_options *options = nullptr,
                                           std::uint32_t room = 64)
     {
@@ -1102,7 +1106,7 @@ public:
         return drillmbd::window(made);
     }
     DRILLMBD_NODISCARD drillmbd::state_space state_space(span<const dmb_excitation> inputs,
-                                                         span<const dmb_response_output> outputs,
+                                                         span<const dmb_output> outputs,
                                                          const dmb_state_space_options *options = nullptr)
     {
         dmb_state_space *made = nullptr;

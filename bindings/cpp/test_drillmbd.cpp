@@ -358,10 +358,10 @@ void response_of_a_body()
     model.compile();
     drillmbd::sim sim(model);
     dmb_excitation force = dmb_excitation_default();
-    dmb_response_output move = dmb_response_output_default();
+    dmb_output move{dmb_place{}, DMB_OUTPUT_VIBRATION, 0};
     dmb_response_options options = dmb_response_options_default();
     force.place = move.place = dmb_station(body, 0, 0.0);
-    move.kind = DMB_RESPONSE_ACCELERATION;
+    move.quantity = DMB_OUTPUT_VIBRATION_ACCELERATION;
     force.amplitude = 3.0;
     options.points = 5;
     drillmbd::response response = sim.response({force}, {move}, &options);
@@ -393,11 +393,11 @@ void stepped_sine_of_a_body()
     model.add_drive(push);
     model.compile();
     drillmbd::sim sim(model);
-    dmb_response_output rate = dmb_response_output_default();
-    rate.kind = DMB_RESPONSE_ACCELERATION;
+    dmb_output rate{dmb_place{}, DMB_OUTPUT_VIBRATION, 0};
+    rate.quantity = DMB_OUTPUT_VIBRATION_ACCELERATION;
     rate.place = dmb_station(push.part, 0, 0.0);
-    dmb_response_output speed = rate;
-    speed.kind = DMB_RESPONSE_VELOCITY;
+    dmb_output speed = rate;
+    speed.quantity = DMB_OUTPUT_VIBRATION_VELOCITY;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     options.harmonics = 2;
     const drillmbd::sine_response found = sim.sine(5.0, {rate, speed}, &options);
@@ -422,7 +422,7 @@ void speeds_of_a_body()
     def.mass = 2.0;
     model.set_environment(none);
     dmb_order once = dmb_order_default();
-    dmb_response_output move = dmb_response_output_default();
+    dmb_output move{dmb_place{}, DMB_OUTPUT_VIBRATION, 0};
     once.excitation.kind = DMB_EXCITATION_UNBALANCE;
     once.excitation.amplitude = 1e-3;
     once.excitation.place = move.place = dmb_station(model.add_body(def), 0, 0.0);

@@ -22,7 +22,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "SEGMEN
               "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "TimeFunctionProvides",
               "PROVIDES_JACOBIAN": "ConstraintProvides", "PROVIDES_TANGENT": "ForceProvides", "DRIVE_MOTION": "DriveKind",
               "OUTPUT_DISPLACEMENT_X": "Quantity", "OUTPUT_HOOK_LOAD": "Reading", "EXCITATION_DRIVE": "ExcitationKind",
-              "RESPONSE_DISPLACEMENT": "ResponseKind", "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
+              "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
               "STATE_FULL": "StateForm", "MOTION_SPEED": "MotionInput", "MATRIX_A": "Matrix", "ARRAY_VELOCITY": "Array",
               "ROW_FREE": "RowState",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
@@ -212,7 +212,7 @@ def enum_class(first, members):
 # Kinds of parts that have a type of id of their own for type checkers; when a program runs each is Id.
 ID_KINDS = ("TimeFunction", "Wall", "String", "Body", "Bit", "Stabiliser", "Joint", "Coupling", "Constraint", "Drive", "Load", "Spring",
             "Stuck", "Force", "Input", "Event")
-PLACES = "excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput]"
+PLACES = "excitations: Sequence[Excitation], outputs: Sequence[Any]"
 # class: {method: (struct, parameters before and after that of the struct, result)}
 TYPED = {
     "ModelCalls": {
@@ -229,9 +229,9 @@ TYPED = {
         "buckling": ("BucklingOptions", "", "", "Buckling"),
         "path": ("PathOptions", "visit: Callable[[Sim, PathPoint], Any] | None = None, ", "", "PathReport"),
         "response": ("ResponseOptions", PLACES + ", ", "frequencies: Any = None, ", "Response"),
-        "stepped_sine": ("SteppedSineOptions", "frequency: float, outputs: Sequence[ResponseOutput], ", "", "tuple[Any, Any]"),
+        "stepped_sine": ("SteppedSineOptions", "frequency: float, outputs: Sequence[Any], ", "", "tuple[Any, Any]"),
         "modes": ("ModesOptions", "", "", "Modes"),
-        "speeds": ("SpeedsOptions", "orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64, ", "",
+        "speeds": ("SpeedsOptions", "orders: Sequence[Order], outputs: Sequence[Any], limits: Sequence[float], room: int = 64, ", "",
                    "tuple[SpeedBands, list[float]]"),
         "torque_drag": ("TorqueDragOptions", "operations: Any = None, depths: Sequence[float] | None = None, ", "", "TorqueDrag"),
         "torque_drag_profile": ("TorqueDragOptions", "operation: Operation | int, stations: int = 101, ", "", "Columns"),

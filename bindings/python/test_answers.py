@@ -91,8 +91,8 @@ class AnswersTest(unittest.TestCase):
 
     def test_recorder(self):
         recorder = self.sim.recorder([("table", "drive_force"), ("bit", "position_x"), "bit_speed", (self.string, "rotation")], 10)
-        self.assertEqual(recorder.columns, ["time [s]", "drive_force table [N or N m]", "position_x bit [m]", "bit_speed [rad/s]",
-                                            "rotation rods pipe 0 at 0 [rad]"])
+        self.assertEqual(recorder.columns, ["time [s]", "drive_force of drive table [N m]", "position_x of bit bit [m]", "bit_speed [rad/s]",
+                                            "rotation of string rods pipe 0 at 0 [rad]"])
         recorder.take()
         self.assertEqual(recorder.table[0, 1], self.sim.drive("table").force)
 

@@ -41,7 +41,7 @@ kind = "eccentricity"
 [[response.output]]
 name = "middle"
 place = {part = "main", pipe = 4}
-component = "z"
+quantity = "vibration-z"
 [speeds]
 speed_low = "30 rpm"
 speed_high = "300 rpm"
@@ -51,7 +51,7 @@ order = 1
 [[speeds.output]]
 name = "middle"
 place = {part = "main", pipe = 4}
-component = "z"
+quantity = "vibration-z"
 limit = "0.01 um"
 """
 

@@ -365,8 +365,8 @@ class ResponseTest(unittest.TestCase):
 
     def test_free_body(self):
         force = mbd.Excitation(place=self.body, amplitude=3.0, phase=math.pi / 2)
-        response = self.sim.response([force], [mbd.ResponseOutput(place=self.body), mbd.ResponseOutput(
-            kind=mbd.RESPONSE_ACCELERATION, place=self.body)], frequencies=[0.5, 2.0, 8.0])
+        response = self.sim.response([force], [(self.body, "vibration_x"),
+            (self.body, "vibration_acceleration_x")], frequencies=[0.5, 2.0, 8.0])
         self.assertEqual(response.shape, (3, 1, 2))
         self.assertEqual(list(response.frequencies), [0.5, 2.0, 8.0])
         for f, x, a, all_a in zip(response.frequencies, response.transfer(0, 0), response.transfer(0, 1),
@@ -376,7 +376,7 @@ class ResponseTest(unittest.TestCase):
             self.assertAlmostEqual(all_a, 1.5j)
 
     def test_grid_and_table(self):
-        response = self.sim.response([mbd.Excitation(place=self.body)], [mbd.ResponseOutput(place=self.body)], points=5,
+        response = self.sim.response([mbd.Excitation(place=self.body)], [(self.body, "vibration_x")], points=5,
                                      frequency_low=1.0, frequency_high=16.0, logarithmic=1)
         for got, want in zip(response.frequencies, (1, 2, 4, 8, 16)):
             self.assertAlmostEqual(got, want)
@@ -385,7 +385,7 @@ class ResponseTest(unittest.TestCase):
             response.write_csv(path)
             lines = path.read_text(encoding="utf-8").splitlines()
         self.assertEqual(len(lines), 6)
-        self.assertTrue(lines[0].startswith("frequency [Hz],amplitude of output 0 for input 0,"))
+        self.assertTrue(lines[0].startswith("frequency [Hz],amplitude of vibration_x of body 0 for excitation 0 [m per unit],"))
         self.assertAlmostEqual(float(lines[1].split(",")[1]), 0.5 / (2.0 * math.pi) ** 2)
 
     def test_stepped_sine(self):
@@ -394,7 +394,7 @@ class ResponseTest(unittest.TestCase):
         shake = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
         model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, time_function=shake)
         model.compile()
-        (amplitudes,), report = model.sim().stepped_sine(5.0, [mbd.ResponseOutput(kind=mbd.RESPONSE_ACCELERATION, place=body)],
+        (amplitudes,), report = model.sim().stepped_sine(5.0, [(body, "vibration_acceleration_x")],
                                                  harmonics=2)
         self.assertEqual((report.status, report.settled, report.windows), (mbd.OK, 1, 3))
         self.assertAlmostEqual(amplitudes[0], 0.0)
@@ -404,7 +404,7 @@ class ResponseTest(unittest.TestCase):
     def test_speeds(self):
         """m r w^2 / (m w^2) = r: the same at every speed, above a limit and below another."""
         order = mbd.Order(excitation=mbd.Excitation(kind=mbd.EXCITATION_UNBALANCE, place=self.body, amplitude=1e-3))
-        output = mbd.ResponseOutput(place=self.body)
+        output = mbd.output_of((self.body, "vibration_x"))
         bands, severity = self.sim.speeds([order], [output], [4e-4], speed_low=5.0, speed_high=20.0, points=7)
         self.assertEqual(len(bands), 1)
         self.assertEqual((bands.status, bands.report.truncated, bands[0].truncated), (mbd.NOTE_INCOMPLETE, 3, 3))
@@ -416,7 +416,7 @@ class ResponseTest(unittest.TestCase):
 
     def test_refusal_says_why(self):
         with self.assertRaises(mbd.Error) as caught:
-            self.sim.response([mbd.Excitation(place=self.body)], [mbd.ResponseOutput(place=self.body)], frequencies=[0.0])
+            self.sim.response([mbd.Excitation(place=self.body)], [(self.body, "vibration_x")], frequencies=[0.0])
         self.assertEqual(caught.exception.name, "DMB_ERR_SINGULAR")
         self.assertIn("body 0", caught.exception.message)
 

@@ -14,7 +14,7 @@ from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, TURNING, WORN, Fold
 needs("numpy")
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import EXCITATION_SETTING, RESPONSE_OUTPUT, Excitation, ResponseOutput, fmu, scene  # noqa: E402
+from drillmbd import EXCITATION_SETTING, Excitation, fmu, scene  # noqa: E402
 from test_scene import EVERYTHING, SCENES  # noqa: E402
 
 try:
@@ -347,7 +347,7 @@ class Fmu(FolderTest):
             sim.static()
             inputs = [Excitation(kind=EXCITATION_SETTING, place=mbd.station(loaded.model.inputs()[name].input)) for name in at]
             asked = [0, len(outputs) - 1]  # torque of the head, acceleration
-            D = sim.state_space(inputs, [ResponseOutput(kind=RESPONSE_OUTPUT, component=loaded.outputs[i][2], place=loaded.outputs[i][1])
+            D = sim.state_space(inputs, [(loaded.outputs[i][1], loaded.outputs[i][2])
                                          for i in asked]).D
         self.assertGreater(abs(D[1]).min(), 1e-9)
         for column, name in enumerate(at):

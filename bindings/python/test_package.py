@@ -506,7 +506,7 @@ class ArraysTest(unittest.TestCase):
         recorder.take()
         rows.take()
         self.assertEqual(window.result().samples, 1)
-        self.assertEqual(recorder.columns[1:], ["stick_slip_index [-]", "stretch [m]"])
+        self.assertEqual(recorder.columns[1:], ["stick_slip_index of output 0 [-]", "stretch [m]"])
         self.assertEqual(rows.columns, ["distance [m]", "torque [N m]"])
         if mbd.numpy is not None:
             self.assertEqual(rows.values.shape, (1, 5, 2))
@@ -528,8 +528,8 @@ class ArraysTest(unittest.TestCase):
         model.compile()
         sim = mbd.Sim(model)
         inputs = [mbd.Excitation(kind=mbd.EXCITATION_DRIVE, place=mbd.station(feed))]
-        outputs = [mbd.ResponseOutput(kind=mbd.RESPONSE_DISPLACEMENT, place=mbd.station(string, 7, 1.0), component=mbd.X),
-                   mbd.ResponseOutput(kind=mbd.RESPONSE_OUTPUT, place=mbd.station(string), component=mbd.OUTPUT_HOOK_LOAD)]
+        outputs = [(mbd.station(string, 7, 1.0), "vibration_x"),
+                   (mbd.station(string), mbd.OUTPUT_HOOK_LOAD)]
         full = sim.state_space(inputs, outputs)
         A, B, C, D = full.matrices
         self.assertEqual(full.info.states, len(A))
@@ -653,7 +653,7 @@ class ArraysTest(unittest.TestCase):
         along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 4)
         self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]", "wall force [N/m]"])
         self.assertEqual(along.frame()["depth [m]"].tolist(), along["depth"])
-        bands, severity = self.sim.speeds([mbd.Order()], [mbd.response_output(self.places[4], mbd.Z)], [1e-9], points=20,
+        bands, severity = self.sim.speeds([mbd.Order()], [(self.places[4], "vibration_z")], [1e-9], points=20,
                                           speed_low=2.0, speed_high=40.0, contact=mbd.CONTACT_OPEN)
         self.assertEqual((bands.speeds[0], bands.speeds[-1], len(bands.speeds)), (2.0, 40.0, 20))
         self.assertEqual(bands.severity_frame()["severity [-]"].tolist(), severity)
@@ -677,7 +677,7 @@ class ArraysTest(unittest.TestCase):
         profile = self.sim.profile(self.string, 10)
         modes = self.sim.modes(count=4, contact=mbd.CONTACT_OPEN)
         response = self.sim.response([mbd.Excitation(place=self.places[9], component=mbd.Z)],
-                                     [mbd.ResponseOutput(place=self.places[9], component=mbd.Z)], points=20,
+                                     [(self.places[9], "vibration_z")], points=20,
                                      contact=mbd.CONTACT_OPEN)
         band = mbd.SpeedBand(low=2.0, high=3.0)
         rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_BENDING_MOMENT], 5, 3)

@@ -60,7 +60,7 @@ points = 30
 order = 1
 [[speeds.output]]
 place = {part = "main", pipe = 4}
-component = "z"
+quantity = "vibration-z"
 limit = "1 m"
 """
 FATIGUE = re.compile(r"\[fatigue\].*?(?=\[speeds\])", re.DOTALL)

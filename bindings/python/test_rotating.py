@@ -56,7 +56,7 @@ kind = "eccentricity"
 [[response.output]]
 name = "middle"
 place = {part = "main", pipe = 6}
-component = "y"
+quantity = "vibration-y"
 [speeds]
 speed_low = "60 rpm"
 speed_high = "240 rpm"
@@ -67,7 +67,7 @@ threshold = 100
 [[speeds.output]]
 name = "middle"
 place = {part = "main", pipe = 6}
-component = "y"
+quantity = "vibration-y"
 limit = "1 um"
 """
 RANGE = """[variability]
@@ -119,7 +119,7 @@ class LinearStateTest(SpeedsTest):
         the wall holds it, and it moves across half as much. Drag damps the start away."""
         scene = scenes.load(self.write("drag.toml", SCENE.replace("[hole]", '[environment]\nlateral_damping = "60 N s/m2"\n[hole]', 1)))
         speed, place = 100.0 * rotating.RPM, station(scene.names["main"], 6)
-        outputs = [mbd.response_output(place, mbd.Y), mbd.response_output(place, mbd.Z)]
+        outputs = [(place, "vibration_y"), (place, "vibration_z")]
         state = rotating.sliding(scene, "response")
         sliding_options = {key: state.options[key] for key in ("spin", "friction", "axes", "equilibrium_tolerance")}
 
@@ -296,7 +296,7 @@ class NoResponseTest(SpeedsTest):
         self.assertIsNone(peak["amplitude"])
         out, peak = self.peaks(self.SCENE.replace("1 rpm", "0 rpm"))
         self.assertIn("not assessed, because all excitations are zero", out)
-        turning = self.SCENE.replace('component = "y"', 'component = "rz"').replace('"1 um"', '"1 deg"')
+        turning = self.SCENE.replace('"vibration-y"', '"vibration-rz"').replace('"1 um"', '"1 deg"')
         out, peak = self.peaks(turning)
         self.assertGreater(peak["amplitude"], 1e-4)
 
@@ -310,7 +310,7 @@ class NoResponseTest(SpeedsTest):
 
     def test_a_silent_output_beside_one_that_moves(self):
         """Torsion turns an upright string and does not move it across: the second output is named, and no speed is called free."""
-        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\ncomponent = "rz"\nlimit = "1e6 deg"\n')
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = "vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning)
         out, summary = self.answer("speeds")
         self.assertIn("middle [m]: not assessed, because the excitation moves the string, but not this output", out)
@@ -331,7 +331,7 @@ class NoResponseTest(SpeedsTest):
 
     def test_a_silent_output_over_a_range(self):
         """No case of the range is called free of critical speeds."""
-        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\ncomponent = "rz"\nlimit = "1e6 deg"\n')
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = "vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning + RANGE)
         out, summary = self.answer("speeds")
         self.assertRegex(out, r"\(4 cases, all combinations\): not assessed; 4 of the 4 cases")
@@ -357,8 +357,8 @@ class NoResponseTest(SpeedsTest):
 
     def test_bounds(self):
         """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if it is 0."""
-        move, turn = mbd.ResponseOutput(component=mbd.Y), mbd.ResponseOutput(component=mbd.RX)
-        force = mbd.ResponseOutput(kind=mbd.RESPONSE_CONTACT)
+        move, turn = mbd.output_of("vibration_y"), mbd.output_of("vibration_rx")
+        force = mbd.output_of("contact_friction_axial")
         self.assertIs(no_response._judged(1e-16, move, [(turn, 1e-3)]), no_response.NO_RESPONSE)
         self.assertIsNone(no_response._judged(1e-11, move, [(turn, 1e-3)]))
         self.assertIsNone(no_response._judged(1e-16, force, [(turn, 1e-3)]))

@@ -262,7 +262,7 @@ place = "feed speed"
 amplitude = "3 mm/s"
 [[response.output]]
 place = "swing"
-component = "z"
+quantity = "vibration-z"
 [speeds]
 speed_high = "100 rpm"
 [[speeds.order]]
@@ -271,6 +271,7 @@ kind = "unbalance"
 place = "swing"
 amplitude = "3 g m"
 [[speeds.output]]
+quantity = "vibration-x"
 place = "swing"
 limit = "1 mm"
 [fatigue]

@@ -74,7 +74,7 @@ kind = "eccentricity"
 [[response.output]]
 name = "middle"
 place = {part = "main", pipe = 3}
-component = "z"
+quantity = "vibration-z"
 [speeds]
 speed_low = "30 rpm"
 speed_high = "300 rpm"
@@ -84,7 +84,7 @@ order = 1
 [[speeds.output]]
 name = "middle"
 place = {part = "main", pipe = 3}
-component = "z"
+quantity = "vibration-z"
 limit = "0.01 um"
 """
 COMMANDS = {"check": (), "static": (), "run": ("--verify",), "modes": (), "response": (), "speeds": (), "buckle": (), "report": (),

@@ -223,7 +223,7 @@ class QuestionTest(Refusals):
             modes[3]
         self.tells(("modes", "index", 9.0), modes.shape, 9, place)
         self.tells(("shape at string 0", "pipe", 7.0), modes.shape, 0, mbd.station(self.string, 7))
-        shaken, asked = [mbd.Excitation(place=place, component=mbd.Z)], [mbd.response_output(place, mbd.Z)]
+        shaken, asked = [mbd.Excitation(place=place, component=mbd.Z)], [(place, "vibration_z")]
         response = sim.response(shaken, asked, points=3)
         self.tells(("response", "output", 2.0), response.transfer, 0, 2)
         self.assertEqual(self.refused(sim.response, shaken[0], asked).field, "excitations")
@@ -249,7 +249,7 @@ class QuestionTest(Refusals):
         for capacity in (0, -1, 2.5):
             self.assertEqual(self.refused(self.sim.recorder, [(None, "hook_load")], capacity).field, "capacity")
         self.assertEqual(self.refused(self.sim.recorder, [(None, "hook_load")], 5, NAN).field, "interval")
-        self.assertEqual(self.refused(self.sim.window, ["bit_speed"]).part, "window output 0")
+        self.assertEqual(self.refused(self.sim.window, [3.0]).part, "window output 0")
 
 
 class TakerTest(Refusals):

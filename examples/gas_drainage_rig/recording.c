@@ -76,7 +76,7 @@ int32_t rig_recording_write(const rig_recording *recording, const rig_options *o
     for (uint64_t row = 0; row < thin.row_count; ++row)
         memcpy(thin.table + row * RIG_COLUMNS, recording->recorder.table + row * stride * RIG_COLUMNS,
                RIG_COLUMNS * sizeof(double));
-    const int32_t status = dmb_recorder_write_csv(&thin, path);
+    const int32_t status = dmb_recorder_write_csv(&thin, NULL, path);
     free(thin.table);
     return status;
 }

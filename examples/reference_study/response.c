@@ -108,13 +108,13 @@ int32_t study_respond(study_string *s, const study_scene *scene, double low, dou
 {
     dmb_response_options options = dmb_response_options_default();
     dmb_excitation inputs[INPUTS];
-    dmb_response_output outputs[STUDY_AXES];
+    dmb_output outputs[STUDY_AXES];
     dmb_response *response = NULL;
     set_inputs(s, scene, inputs);
     for (int32_t axis = 0; axis < STUDY_AXES; ++axis) {
-        outputs[axis] = dmb_response_output_default();
+        outputs[axis] = (dmb_output){.quantity = DMB_OUTPUT_VIBRATION};
         outputs[axis].place = dmb_station(s->string, scene->pipes - 1, 0.5);
-        outputs[axis].component = axis;
+        outputs[axis].quantity += axis;
     }
     options.points = points;
     options.frequency_low = low;

@@ -65,12 +65,11 @@ static dmb_order order_of(double order, int32_t kind, dmb_place place, int32_t c
     return made;
 }
 
-static dmb_response_output load_of(dmb_place place, int32_t component)
+static dmb_output load_of(dmb_place place, int32_t component)
 {
-    dmb_response_output made = dmb_response_output_default();
-    made.kind = DMB_RESPONSE_SECTION_FORCE;
+    dmb_output made = {.quantity = DMB_OUTPUT_SECTION_FORCE};
     made.place = place;
-    made.component = component;
+    made.quantity += component;
     return made;
 }
 
@@ -85,8 +84,8 @@ static int32_t find_bands(depth *d)
                                       order_of(BLADES, DMB_EXCITATION_FORCE, bit, DMB_RX, 40.0),
                                       order_of(BLADES, DMB_EXCITATION_BIT_LOAD, bit, DMB_X, 500.0),
                                       order_of(d->given_order, DMB_EXCITATION_BIT_LOAD, bit, DMB_X, 500.0)};
-    const dmb_response_output outputs[LIMITS] = {load_of(head, DMB_X), load_of(head, DMB_RX), load_of(last, DMB_Y),
-                                                 load_of(last, DMB_RX), load_of(last, DMB_RZ)};
+    const dmb_output outputs[LIMITS] = {load_of(head, DMB_X), load_of(head, DMB_RX), load_of(last, DMB_Y),
+                                        load_of(last, DMB_RX), load_of(last, DMB_RZ)};
     dmb_speeds_options options = dmb_speeds_options_default();
     options.points = SPEEDS;
     options.speed_low = LOW_RPM / RPM;

@@ -490,37 +490,6 @@ typedef struct dmb_excitation {
 } dmb_excitation;
 DMB_SIZED_STRUCT(dmb_excitation)
 
-/* ---- Response --------------------------------------------------------------------------------------------------- */
-enum {
-    DMB_RESPONSE_DISPLACEMENT = 0,   /* [m, rad] of `place`, components along the axes of `frame` */
-    DMB_RESPONSE_VELOCITY = 1,       /* [m/s, rad/s] its rate */
-    DMB_RESPONSE_ACCELERATION = 2,   /* [m/s2, rad/s2] the rate of that */
-    DMB_RESPONSE_SECTION_FORCE = 3,  /* [N, N m] as dmb_query_section, section frame */
-    DMB_RESPONSE_SECTION_STRAIN = 4, /* [-, rad/m] as dmb_query_section, section frame */
-    DMB_RESPONSE_CONTACT = 5,  /* [N] at contact point number place.pipe: DMB_X, DMB_Y friction, 0 and 1 of dmb_contact
-                                (bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
-    DMB_RESPONSE_DRIVE = 6,    /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
-    DMB_RESPONSE_REACTION = 7, /* [N, N m] on the part place.part, as dmb_query_reaction */
-    DMB_RESPONSE_JOINT_POSITION = 8,
-    DMB_RESPONSE_JOINT_SPEED = 9,         /* coordinates of the joint place.part and */
-    DMB_RESPONSE_JOINT_ACCELERATION = 10, /* its forces: as dmb_query_joint */
-    DMB_RESPONSE_JOINT_REACTION = 11,
-    DMB_RESPONSE_JOINT_ACTION = 12,
-    DMB_RESPONSE_MULTIPLIER = 13, /* number `component` of place.part, as dmb_query_multipliers */
-    DMB_RESPONSE_BIT = 14,        /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
-    DMB_RESPONSE_OUTPUT = 15      /* the output DMB_OUTPUT_... that `component` says, at `place`. In a stepped sine all
-                                    but those of a window; in a linear analysis those that are linear in the motion: no
-                                    magnitudes, sums over the string, energies, works (DMB_ERR_UNSUPPORTED) */
-};
-typedef struct dmb_response_output {
-    uint32_t struct_size;
-    int32_t kind;      /* DMB_RESPONSE_..., default DMB_RESPONSE_DISPLACEMENT */
-    dmb_place place;   /* required for some kinds */
-    int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
-    int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
-} dmb_response_output;
-DMB_SIZED_STRUCT(dmb_response_output)
-
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
 /* Axes of small motions, of the frames of places, and so of frequencies: those of the parts, which turn with them, or
  * axes that do not take part in turning about the part's own x axis, as for modes: frequencies as they are
@@ -547,6 +516,9 @@ typedef struct dmb_response_options {
 DMB_SIZED_STRUCT(dmb_response_options)
 
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
+/* Outputs of a linear analysis are small changes about its state, of every DMB_OUTPUT_... that is linear in the motion;
+ * magnitudes, sums over the string, counts, energies and works are refused (DMB_ERR_UNSUPPORTED, the message names the
+ * output). DMB_OUTPUT_VIBRATION .. are motions of a place in the axes of the analysis. */
 /* Transfer functions from every excitation to every output about the accepted state of a sim, which must be an
  * equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency. Of a state that
  * spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the
@@ -554,7 +526,7 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or
  * a string that turns on the wall, which goes round in axes that turn; results hold along and about the axes of
  * straight parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
- * (excitation_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
+ * (excitation_count), (output_count), 1 .. 1024 each, every excitation of the size that the first says. options may be
  * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
  * band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part
  * that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with
@@ -564,8 +536,7 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * may not be computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
                                       const dmb_excitation *excitations, uint32_t excitation_count,
-                                      const dmb_response_output *outputs, uint32_t output_count,
-                                      dmb_response **response);
+                                      const dmb_output *outputs, uint32_t output_count, dmb_response **response);
 /* Gives the memory back and sets *response to NULL. NULL-safe. */
 DMB_API void dmb_response_destroy(dmb_response **response);
 /* Numbers of frequencies (those of refinement included), excitations and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
@@ -577,9 +548,10 @@ DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *f
 #define DMB_COMBINED UINT32_MAX
 DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t excitation, uint32_t output,
                                       double *values);
-/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line,
- * '.' as decimal mark. DMB_ERR_IO on failure. */
-DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
+/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; a line of
+ * heads, with part names of `sim` (NULL: numbers of parts), '.' as decimal mark. Errors: DMB_ERR_NULL, _HANDLE, _IO.
+ */
+DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const dmb_sim *sim, const char *path);
 
 /* ---- Stepped sine ------------------------------------------------------------------------------------------------
  * Response in time to the scene's own time functions at one frequency, where the linear one does not hold:
@@ -614,15 +586,15 @@ DMB_SIZED_STRUCT(dmb_stepped_sine_report)
 
 /* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
  * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
- * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes
- * of the world or (DMB_FRAME_BODY) those the place has at the call, less their drift over the window; component DMB_RX
- * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below
- * pi. Other outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
+ * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. DMB_OUTPUT_VIBRATION are displacements since
+ * time 0 in the axes of the world or (_BODY) those the place has at the call, less their drift over the window; RX is
+ * the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other
+ * outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
  * the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID,
  * _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted
  * state. amplitudes and report are left alone on error. Cost: steps. */
 DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                                          const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
+                                          const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                           dmb_stepped_sine_report *report);
 
 /* ---- Safe speeds -------------------------------------------------------------------------------------------------
@@ -691,7 +663,7 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as
  * dmb_analysis_response, with nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                                    uint32_t order_count, const dmb_response_output *outputs, const double *limits,
+                                    uint32_t order_count, const dmb_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,
                                     double *severity);
 
@@ -761,8 +733,7 @@ typedef struct dmb_state_space dmb_state_space; /* matrices of the linear system
  * DMB_STATE_REDUCED, O(elements) of DMB_STATE_MATRICES. */
 DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options,
                                          const dmb_excitation *excitations, uint32_t excitation_count,
-                                         const dmb_response_output *outputs, uint32_t output_count,
-                                         dmb_state_space **space);
+                                         const dmb_output *outputs, uint32_t output_count, dmb_state_space **space);
 /* Sets *space to NULL. NULL-safe. */
 DMB_API void dmb_state_space_destroy(dmb_state_space **space);
 /* Errors of this and the following functions: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE. */

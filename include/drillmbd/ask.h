@@ -371,10 +371,10 @@ DMB_SIZED_STRUCT(dmb_recorder)
 /* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; DMB_ERR_ORDER before the time of the
  * last row, as after a restore: set row_count to the number of rows to keep. O(outputs). */
 DMB_API int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim);
-/* Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). DMB_ERR_IO on failure: this and
- * all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a
- * device. */
-DMB_API int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path);
+/* Writes the table as CSV: comma, '.', a line of heads as of dmb_output_text with part names of `sim` (NULL: numbers of
+ * parts), 17 digits, nan. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE; _IO: this and all that
+ * write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device. */
+DMB_API int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const dmb_sim *sim, const char *path);
 /* VTK XML poly-data for ParaView: the strings as lines with fields (displacement, velocity, diameter, axial force,
  * torque, bending moment, normal force), `per_element` points an element (1 .. 64). DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path);
@@ -416,7 +416,7 @@ DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_stat
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------
  * Numbers of dmb_output.quantity that continue those of ask.h. Where six follow each other, the number is the one
- * given plus DMB_X .. DMB_RZ. Each is the result of the query it is named after. Numbers 500 .. 999 and from 3000 on
+ * given plus DMB_X .. DMB_RZ. Each is the result of the query it is named after. Numbers 520 .. 999 and from 3000 on
  * are kept free. A stretch of numbers may grow at its end. */
 enum {
     /* Readings of a driller; place.part is a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
@@ -550,6 +550,16 @@ enum {
     DMB_OUTPUT_BODY_VELOCITY = 440,      /* [m/s, rad/s] */
     DMB_OUTPUT_BODY_ACCELERATION = 450,  /* [m/s2, rad/s2] */
 
+    /* Small motion of any place about the state of a frequency response, stepped sine, state space or of safe speeds,
+     * six each; components along world axes or (_BODY) those of the section, which turn with it in a state that spins
+     * unless the `axes` of the analysis are at rest. Not in runs: there take DISPLACEMENT, WORLD_ and BODY_VELOCITY. */
+    DMB_OUTPUT_VIBRATION = 460, /* [m, rad] displacement from the state */
+    DMB_OUTPUT_VIBRATION_BODY = 470,
+    DMB_OUTPUT_VIBRATION_VELOCITY = 480, /* [m/s, rad/s] its rate */
+    DMB_OUTPUT_VIBRATION_VELOCITY_BODY = 490,
+    DMB_OUTPUT_VIBRATION_ACCELERATION = 500, /* [m/s2, rad/s2] */
+    DMB_OUTPUT_VIBRATION_ACCELERATION_BODY = 510,
+
     DMB_OUTPUT_PROFILE = 1000, /* + DMB_PROFILE_...: at a place of a string; as dmb_query_profile, NaN included */
 
     /* of a window, place.pipe the number of the watched output; in recorders with a window only */
@@ -574,6 +584,10 @@ DMB_API const char *dmb_output_name(int32_t quantity, const char **unit);
 DMB_API int32_t dmb_output_quantity(const char *name, int32_t *quantity);
 /* All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last. */
 DMB_API int32_t dmb_output_next(int32_t quantity);
+/* "drive_force of drive table [N m]", "axial_force of string main pipe 3 at 0.5 [N]": into the caller's text of `size`
+ * [byte], ends with 0; 128 suffice. sim may be NULL: parts by their numbers. Errors: DMB_ERR_NULL, _HANDLE, _VALUE
+ * (an unknown quantity), _TOO_LARGE (room). */
+DMB_API int32_t dmb_output_text(const dmb_sim *sim, const dmb_output *output, char *text, uint32_t size);
 /* Whether this sim has each output; dmb_sim_message names the first that cannot, and a valid place.
  * Errors: as dmb_query_output. */
 DMB_API int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count);

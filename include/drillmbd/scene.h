@@ -832,9 +832,10 @@ DMB_API int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_
 DMB_API int32_t dmb_model_find_input(const dmb_model *model, const char *name, dmb_id *input);
 
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
-/* Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a
- * pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives
- * its length and speed (scene.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there. */
+/* Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped
+ * sine, state space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no
+ * offset. A spring of stiffness 0 to a point off these gives its length and speed (scene.h, as outputs); so do
+ * dmb_query_motion with the arm, and a body that is fixed there. */
 typedef struct dmb_output {
     dmb_place place;  /* where the quantity is one of a place */
     int32_t quantity; /* DMB_OUTPUT_... */

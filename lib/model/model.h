@@ -205,7 +205,7 @@ typedef struct dmb_time_function_name {
     char name[DMB_NAME_SIZE];
 } dmb_time_function_name;
 
-/* The word of a kind of parts in messages, "time function". */
+/* The word of a kind of parts in messages, "time function"; NULL for a number that is none. */
 const char *dmb_part_word(uint32_t kind);
 
 /* Fails the check where `name`, the field of that length, is no text or another part of the kind has it (0: no kind).
@@ -217,6 +217,8 @@ void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *
 /* DMB_ERR_ID: no part has the name. */
 int32_t dmb_model_refuse_name(const dmb_model *model, const char *word, const char *name);
 
+/* The name of a part that is there; "". */
+const char *dmb_part_name(const dmb_model *model, uint32_t kind, uint32_t index);
 /* "string 0 (main)", "bit 0"; into text. */
 const char *dmb_model_part_text(const dmb_model *model, uint32_t kind, uint32_t index, dmb_message *text);
 /* The same by the word for its kind. */

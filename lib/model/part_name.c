@@ -46,7 +46,7 @@ static const name_place places[KINDS] = {
 
 const char *dmb_part_word(uint32_t kind)
 {
-    return places[kind].word;
+    return kind < KINDS ? places[kind].word : NULL;
 }
 
 static uint32_t name_of_time_function(const dmb_model *model, uint32_t index)
@@ -57,7 +57,7 @@ static uint32_t name_of_time_function(const dmb_model *model, uint32_t index)
 }
 
 /* The part is there. */
-static const char *name_of(const dmb_model *model, uint32_t kind, uint32_t index)
+const char *dmb_part_name(const dmb_model *model, uint32_t kind, uint32_t index)
 {
     const name_place *place = places + kind;
     if (kind == DMB_PART_WALL) return model->wall.name;
@@ -74,7 +74,7 @@ static uint32_t find_in(const dmb_model *model, uint32_t kind, const char *name)
     const uint32_t count = dmb_model_part_count(model, kind);
     if (name[0] == '\0') return DMB_NONE;
     for (uint32_t i = 0; i < count; ++i)
-        if (strncmp(name_of(model, kind, i), name, DMB_NAME_SIZE) == 0) return i; /* an end may be missing */
+        if (strncmp(dmb_part_name(model, kind, i), name, DMB_NAME_SIZE) == 0) return i; /* an end may be missing */
     return DMB_NONE;
 }
 
@@ -128,7 +128,7 @@ void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *
 
 const char *dmb_model_part_text(const dmb_model *model, uint32_t kind, uint32_t index, dmb_message *text)
 {
-    return dmb_part_text(text, places[kind].word, index, name_of(model, kind, index), DMB_NAME_SIZE);
+    return dmb_part_text(text, places[kind].word, index, dmb_part_name(model, kind, index), DMB_NAME_SIZE);
 }
 
 const char *dmb_model_word_text(const dmb_model *model, const char *word, uint32_t index, dmb_message *text)
@@ -175,7 +175,7 @@ static int32_t put_name(dmb_model *model, uint32_t kind, uint32_t index, const c
         return dmb_list_append(&model->names, &model->allocator, &item, sizeof item);
     }
     char *own;
-    const char *read = name_of(model, kind, index);
+    const char *read = dmb_part_name(model, kind, index);
     memcpy(&own, &read, sizeof own); /* the model is the caller's to change */
     memcpy(own, name, DMB_NAME_SIZE);
     return DMB_OK;
@@ -213,7 +213,7 @@ int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *name, uint
     if (size < DMB_NAME_SIZE) return dmb_model_failed(model, "model", DMB_ERR_VALUE);
     const int32_t status = read_id(model, part, &kind, &index);
     if (status < 0) return dmb_model_failed(model, "model", status);
-    const char *own = name_of(model, kind, index);
+    const char *own = dmb_part_name(model, kind, index);
     memcpy(name, own, strlen(own) + 1);
     return DMB_OK;
 }

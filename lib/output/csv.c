@@ -2,6 +2,7 @@
  * digits to reproduce every number exactly. */
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "analysis/response/response.h"
 #include "base/sized_struct.h"
@@ -9,70 +10,37 @@
 #include "output/output.h"
 #include "output/text_file.h"
 #include "query/query.h"
+#include "sim/access.h"
+#include "sim/sim.h"
 
-static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
+static const dmb_model *model_of(const dmb_sim *sim)
 {
-    dmb_text_put(file, " ");
-    dmb_text_put(file, kind);
-    dmb_text_put(file, " ");
-    dmb_text_put_count(file, number);
+    return sim != NULL ? sim->model : NULL;
 }
 
-/* "string 0 pipe 99 at 1", "body 2": no commas */
-static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_alone)
+/* A field of a head; in quotes where a name has a comma or a quote. */
+static void put_field(dmb_text_file *file, const char *text, const char *unit)
 {
-    static const char *const kinds[] = {
-        "part",
-        [DMB_PART_TIME_FUNCTION] = "time_function",
-        [DMB_PART_WALL] = "wall",
-        [DMB_PART_STRING] = "string",
-        [DMB_PART_BODY] = "body",
-        [DMB_PART_BIT] = "bit",
-        [DMB_PART_STABILISER] = "stabiliser",
-        [DMB_PART_DRIVE] = "drive",
-        [DMB_PART_LOAD] = "load",
-        [DMB_PART_JOINT] = "joint",
-        [DMB_PART_COUPLING] = "coupling",
-        [DMB_PART_CONSTRAINT] = "constraint",
-        [DMB_PART_SPRING] = "spring",
-        [DMB_PART_FORCE] = "force",
-        [DMB_PART_STUCK] = "stuck",
-        [DMB_PART_INPUT] = "input",
-        [DMB_PART_EVENT] = "event",
-    };
-    const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
-    const int known = kind < sizeof kinds / sizeof kinds[0] && kinds[kind] != NULL;
-    put_numbered(file, known ? kinds[kind] : kinds[0], number);
-    if (kind != DMB_PART_STRING || part_alone) return;
-    put_numbered(file, "pipe", place->pipe);
-    dmb_text_put(file, " at ");
-    dmb_text_put_short(file, place->fraction);
+    const int quoted = strpbrk(text, ",\"") != NULL;
+    if (quoted) dmb_text_put(file, "\"");
+    for (const char *c = text; *c != '\0'; c++) {
+        const char one[2] = {*c, '\0'};
+        if (*c == '"') dmb_text_put(file, "\"");
+        dmb_text_put(file, one);
+    }
+    dmb_text_put(file, " [");
+    dmb_text_put(file, unit);
+    dmb_text_put(file, quoted ? "]\"" : "]");
 }
 
-/* For an unknown quantity the whole place is written. */
-static void put_place(dmb_text_file *file, const dmb_output_entry *entry, const dmb_place *place)
-{
-    const int32_t kind = entry != NULL ? entry->place : DMB_AT_PLACE;
-    const int named = place->part.index != 0;
-    if (kind == DMB_AT_SCENE || (kind == DMB_AT_STRING && !named)) return;
-    if (kind == DMB_AT_CONTACT || kind == DMB_AT_WINDOW)
-        put_numbered(file, kind == DMB_AT_CONTACT ? "contact" : "watch", place->pipe);
-    else
-        put_part(file, place, kind == DMB_AT_STRING);
-}
-
-static void put_header(dmb_text_file *file, const dmb_recorder *r)
+static void put_header(dmb_text_file *file, const dmb_recorder *r, const dmb_sim *sim)
 {
     dmb_text_put(file, "time [s]");
     for (uint32_t i = 0; i < r->output_count; ++i) {
-        const dmb_output *output = &r->outputs[i];
-        const dmb_output_entry *name = dmb_output_name_of(output->quantity);
+        dmb_message words;
         dmb_text_put(file, ",");
-        dmb_text_put(file, name != NULL ? name->name : "unknown");
-        put_place(file, name, &output->place);
-        dmb_text_put(file, " [");
-        dmb_text_put(file, name != NULL ? name->unit : "-");
-        dmb_text_put(file, "]");
+        put_field(file, dmb_output_words(model_of(sim), r->outputs + i, &words),
+                  dmb_output_unit(model_of(sim), r->outputs + i));
     }
     dmb_text_put(file, "\n");
 }
@@ -89,51 +57,57 @@ static void put_rows(dmb_text_file *file, const dmb_recorder *r)
     }
 }
 
-static int32_t write_recorder(const dmb_recorder *recorder, const char *path, dmb_message *why)
+static int32_t write_recorder(const dmb_recorder *recorder, const dmb_sim *sim, const char *path, dmb_message *why)
 {
     dmb_recorder r;
     dmb_text_file file;
     int32_t status = dmb_recorder_read_struct(&r, recorder, why);
     if (status < 0) return status;
     if (path == NULL) return DMB_ERR_NULL;
+    if (sim != NULL && dmb_sim_check(sim) < 0) return DMB_ERR_HANDLE;
     status = dmb_text_open(&file, path);
     if (status < 0) return status;
-    put_header(&file, &r);
+    put_header(&file, &r, sim);
     put_rows(&file, &r);
     return dmb_text_close(&file);
 }
 
-int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
+int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const dmb_sim *sim, const char *path)
 {
     dmb_message why;
     dmb_message_clear(&why);
-    const int32_t status = write_recorder(recorder, path, &why);
+    const int32_t status = write_recorder(recorder, sim, path, &why);
     return dmb_file_failed("recorder", path, status, &why);
 }
 
 /* A frequency response as comma-separated values: frequency, then amplitude and phase of each transfer function and of
  * each combined output. */
 
-static void put_name(dmb_text_file *file, const char *what, const char *unit, uint32_t input, uint32_t output)
+static void put_name(dmb_text_file *file, const char *what, const char *unit, const char *output, uint32_t input)
 {
-    dmb_text_put(file, what);
-    dmb_text_put(file, " of output ");
-    dmb_text_put_count(file, output);
-    dmb_text_put(file, input == DMB_COMBINED ? " for all inputs" : " for input ");
-    if (input != DMB_COMBINED) dmb_text_put_count(file, input);
-    dmb_text_put(file, unit);
+    dmb_message text;
+    if (input == DMB_COMBINED)
+        dmb_message_set(&text, "%s of %s for all excitations", what, output);
+    else
+        dmb_message_set(&text, "%s of %s for excitation %u", what, output, input);
+    put_field(file, text.text, unit);
 }
 
-static void put_response_header(dmb_text_file *file, const dmb_response *response)
+/* An amplitude for one excitation is by the unit of that. */
+static void put_response_header(dmb_text_file *file, const dmb_response *response, const dmb_sim *sim)
 {
     dmb_text_put(file, "frequency [Hz]");
     for (uint32_t i = 0; i <= response->excitations; i++)
         for (uint32_t k = 0; k < response->outputs; k++) {
             const uint32_t input = i < response->excitations ? i : DMB_COMBINED;
+            const char *unit = dmb_output_unit(model_of(sim), response->output + k);
+            dmb_message words, per;
+            (void)dmb_output_words(model_of(sim), response->output + k, &words);
+            dmb_message_set(&per, input == DMB_COMBINED ? "%s" : "%s per unit", unit);
             dmb_text_put(file, ",");
-            put_name(file, "amplitude", "", input, k);
+            put_name(file, "amplitude", per.text, words.text, input);
             dmb_text_put(file, ",");
-            put_name(file, "phase", " [rad]", input, k);
+            put_name(file, "phase", "rad", words.text, input);
         }
     dmb_text_put(file, "\n");
 }
@@ -160,19 +134,20 @@ static void put_row(dmb_text_file *file, const dmb_response *response, uint32_t 
     dmb_text_put(file, "\n");
 }
 
-static int32_t write_response(const dmb_response *response, const char *path)
+static int32_t write_response(const dmb_response *response, const dmb_sim *sim, const char *path)
 {
     dmb_text_file file;
     if (response == NULL || path == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(response, DMB_HANDLE_RESPONSE)) return DMB_ERR_HANDLE;
+    if (sim != NULL && dmb_sim_check(sim) < 0) return DMB_ERR_HANDLE;
     const int32_t status = dmb_text_open(&file, path);
     if (status < 0) return status;
-    put_response_header(&file, response);
+    put_response_header(&file, response, sim);
     for (uint32_t point = 0; point < response->points; point++) put_row(&file, response, point);
     return dmb_text_close(&file);
 }
 
-int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
+int32_t dmb_response_write_csv(const dmb_response *response, const dmb_sim *sim, const char *path)
 {
-    return dmb_file_failed("response", path, write_response(response, path), NULL);
+    return dmb_file_failed("response", path, write_response(response, sim, path), NULL);
 }

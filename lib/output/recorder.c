@@ -95,7 +95,7 @@ static int32_t take(dmb_recorder *recorder, const dmb_sim *sim, dmb_message *why
     row[0] = dmb_sim_time(sim);
     for (uint32_t i = 0; i < r.output_count; ++i) {
         status = value_of(&r, sim, &r.outputs[i], &row[1 + i]);
-        if (status < 0) dmb_output_explain(&r.outputs[i], i, status, why);
+        if (status < 0) dmb_output_explain(sim->model, &r.outputs[i], i, status, why);
         if (status < 0) return status;
     }
     recorder->row_count = r.row_count + 1;

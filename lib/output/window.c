@@ -187,7 +187,7 @@ static int32_t ask_all(dmb_window *w, const dmb_sim *sim, dmb_message *why)
     for (uint32_t i = 0; i < w->output_count; i++) {
         int32_t status = dmb_output_value(sim, &w->outputs[i].output, &w->outputs[i].next);
         if (status >= 0 && !isfinite(w->outputs[i].next)) status = DMB_ERR_NOT_FINITE;
-        if (status < 0) dmb_output_explain(&w->outputs[i].output, i, status, why);
+        if (status < 0) dmb_output_explain(sim->model, &w->outputs[i].output, i, status, why);
         if (status < 0) return status;
     }
     return DMB_OK;

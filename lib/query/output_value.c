@@ -266,6 +266,7 @@ int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *v
     case DMB_AT_CONSTRAINT: return multiplier_value(sim, output, value);
     case DMB_AT_CONTACT: return site_value(sim, output, value);
     case DMB_AT_SCENE: return scene_value(sim, output, value);
+    case DMB_AT_VIBRATION:
     case DMB_AT_WINDOW: return DMB_ERR_UNSUPPORTED;
     default: return place_value(sim, output, value);
     }
@@ -282,40 +283,7 @@ int32_t dmb_answer_output(const dmb_sim *sim, const dmb_output *output, double *
     return answer;
 }
 
-/* ---- Error messages ---------------------------------------------------------------------------------------------- */
-
-static const char *wanted(int32_t place)
-{
-    switch (place) {
-    case DMB_AT_PLACE: return "place must be on a string, body or bit of this model";
-    case DMB_AT_SECTION: return "place must be on a flexible or axial-torsional pipe of a string";
-    case DMB_AT_PIPE: return "place must be on a pipe of a string";
-    case DMB_AT_PART: return "place must name a pipe of a string, a body or a bit";
-    case DMB_AT_STRING:
-        return "place.part must be a string, or {0, 0} for the first, that has what is read: a bit, with a rock law "
-               "for off_bottom, or a flexible first pipe";
-    case DMB_AT_BIT: return "place.part must be a bit";
-    case DMB_AT_STUCK: return "place.part must be a stuck place";
-    case DMB_AT_SPRING: return "place.part must be a spring";
-    case DMB_AT_INPUT: return "place.part must be an input";
-    case DMB_AT_DRIVE: return "place.part must be a drive";
-    case DMB_AT_JOINT: return "place.part must be a joint";
-    case DMB_AT_CONSTRAINT: return "place.part must be a joint, coupling, constraint or joint drive with that row";
-    case DMB_AT_CONTACT: return "place.pipe must be a contact point, below info.contact_points";
-    case DMB_AT_SCENE: return "switch on what it is read from in the options of the sim (energy_ledger)";
-    default: return "it is a number of a window: record it by a recorder with a window, or ask dmb_window_get";
-    }
-}
-
-void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dmb_message *message)
-{
-    const dmb_output_entry *name = dmb_output_name_of(output->quantity);
-    if (name == NULL)
-        dmb_message_set(message, "output %u: quantity = %d, must be a DMB_OUTPUT_ number", i, (int)output->quantity);
-    else
-        dmb_message_set(message, "output %u, %s at pipe %u, fraction %g: %s; %s", i, name->name, output->place.pipe,
-                        output->place.fraction, dmb_status_text(status), wanted(name->place));
-}
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
 int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *value)
 {
@@ -323,7 +291,8 @@ int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *v
     dmb_message why;
     if (status >= 0) return status;
     dmb_message_clear(&why);
-    if (dmb_sim_check(sim) == DMB_OK && output != NULL && value != NULL) dmb_output_explain(output, 0, status, &why);
+    if (dmb_sim_check(sim) == DMB_OK && output != NULL && value != NULL)
+        dmb_output_explain(sim->model, output, 0, status, &why);
     return dmb_sim_fail(sim, status, "output", why.text);
 }
 
@@ -342,7 +311,7 @@ int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t outpu
     for (uint32_t i = 0; i < output_count && status >= 0; i++) {
         double unused;
         status = dmb_output_value(sim, outputs + i, &unused);
-        if (status < 0) dmb_output_explain(outputs + i, i, status, &sim->message);
+        if (status < 0) dmb_output_explain(sim->model, outputs + i, i, status, &sim->message);
     }
     return dmb_sim_leave(sim, status);
 }

@@ -250,7 +250,8 @@ enum {
     DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched output */
     DMB_AT_STUCK = 12,     /* place.part alone */
     DMB_AT_SPRING = 13,
-    DMB_AT_INPUT = 14
+    DMB_AT_INPUT = 14,
+    DMB_AT_VIBRATION = 15 /* any place, in linear analyses and a stepped sine */
 };
 
 typedef struct dmb_output_entry {
@@ -263,9 +264,20 @@ typedef struct dmb_output_entry {
 /* Returns the entry of a quantity; NULL if it is unknown. */
 const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 
-/* Computes the present value of an output. Errors: those of dmb_query_output. */
+/* "drive_force of drive table", "axial_force of string main pipe 3 at 0.5"; a part without a name has its number, as
+ * all have where model is NULL. */
+const char *dmb_output_words(const dmb_model *model, const dmb_output *output, dmb_message *text);
+/* Its unit: where the table has two, that of the part's component. */
+const char *dmb_output_unit(const dmb_model *model, const dmb_output *output);
+/* DMB_ERR_VALUE, with a message about output number i: its quantity is none. */
+int32_t dmb_output_known(const dmb_output *output, uint32_t i, dmb_message *message);
+/* "output 3, axial_force of string main pipe 3 at 0.5: why" */
+void dmb_output_refuse(const dmb_model *model, const dmb_output *output, uint32_t i, const char *why,
+                       dmb_message *message);
 /* Why output number i has no value. */
-void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dmb_message *message);
+void dmb_output_explain(const dmb_model *model, const dmb_output *output, uint32_t i, int32_t status,
+                        dmb_message *message);
+/* Computes the present value of an output. Errors: those of dmb_query_output. */
 int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *value);
 
 /* Values of the outputs for the driller, DMB_OUTPUT_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */

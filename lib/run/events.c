@@ -42,9 +42,11 @@ static int32_t ask(dmb_sim *sim, gaps *found)
         double value = 0.0;
         const int32_t status = dmb_output_value(sim, &event->output, &value);
         if (status < 0 || !isfinite(value)) {
+            dmb_message words;
             dmb_message_set(&sim->message,
-                            "event %u (%s): its output cannot be asked: %s; see to its quantity and place", i,
-                            event->name, status < 0 ? dmb_status_text(status) : "it is not finite");
+                            "event %u (%s): its output, %s, cannot be asked: %s; see to its quantity and place", i,
+                            event->name, dmb_output_words(sim->model, &event->output, &words),
+                            status < 0 ? dmb_status_text(status) : "it is not finite");
             return status < 0 ? status : DMB_ERR_NOT_FINITE;
         }
         found->value[i] = event->direction == DMB_EVENT_FALLING ? event->level - value : value - event->level;

@@ -137,7 +137,7 @@ static int32_t respond(const tube *t, uint32_t points, double *seconds, double *
 {
     dmb_response_options options = dmb_response_options_default();
     dmb_excitation input = dmb_excitation_default();
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     dmb_response *response = NULL;
     options.points = points;
     options.frequency_low = 0.1;
@@ -146,7 +146,7 @@ static int32_t respond(const tube *t, uint32_t points, double *seconds, double *
     input.kind = DMB_EXCITATION_DRIVE;
     input.place.part = t->drive;
     output.place = t->tip;
-    output.component = DMB_RX;
+    output.quantity += DMB_RX;
     const double begin = processor_time();
     int32_t status = dmb_analysis_response(t->sim, &options, &input, 1, &output, 1, &response);
     *seconds = processor_time() - begin;

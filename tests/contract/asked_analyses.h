@@ -162,18 +162,18 @@ static inline dmb_excitation ask_force_on(const asked_of *a)
     return input;
 }
 
-static inline dmb_response_output ask_motion_of(const asked_of *a)
+static inline dmb_output ask_motion_of(const asked_of *a)
 {
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     output.place = a->place;
-    output.component = a->component;
+    output.quantity += a->component;
     return output;
 }
 
 static inline int32_t ask_response(const asked_of *a)
 {
     const dmb_excitation input = ask_force_on(a);
-    const dmb_response_output output = ask_motion_of(a);
+    const dmb_output output = ask_motion_of(a);
     dmb_response_options options = dmb_response_options_default();
     dmb_response *found = NULL;
     options.points = a->points;
@@ -186,7 +186,7 @@ static inline int32_t ask_response(const asked_of *a)
 
 static inline int32_t ask_speeds(const asked_of *a)
 {
-    const dmb_response_output output = ask_motion_of(a);
+    const dmb_output output = ask_motion_of(a);
     const double limit = 1e-6;
     dmb_order order = dmb_order_default();
     dmb_speeds_options options = dmb_speeds_options_default();
@@ -200,7 +200,7 @@ static inline int32_t ask_speeds(const asked_of *a)
 /* It moves the sim on. */
 static inline int32_t ask_stepped_sine(const asked_of *a)
 {
-    const dmb_response_output output = ask_motion_of(a);
+    const dmb_output output = ask_motion_of(a);
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     double amplitudes[8];
     options.steps_per_period = 24;
@@ -212,7 +212,7 @@ static inline int32_t ask_stepped_sine(const asked_of *a)
 static inline int32_t ask_state_space(const asked_of *a)
 {
     const dmb_excitation input = ask_force_on(a);
-    const dmb_response_output output = ask_motion_of(a);
+    const dmb_output output = ask_motion_of(a);
     dmb_state_space *found = NULL;
     const int32_t status = dmb_analysis_state_space(a->sim, NULL, &input, 1, &output, 1, &found);
     GIVES_NOTHING_OUT(found);
@@ -223,7 +223,7 @@ static inline int32_t ask_state_space(const asked_of *a)
 static inline int32_t ask_reduced_state_space(const asked_of *a)
 {
     const dmb_excitation input = ask_force_on(a);
-    const dmb_response_output output = ask_motion_of(a);
+    const dmb_output output = ask_motion_of(a);
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_state_space *found = NULL;

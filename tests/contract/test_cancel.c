@@ -138,11 +138,11 @@ static dmb_excitation tip_force(const scene *s)
     return input;
 }
 
-static dmb_response_output middle(const scene *s)
+static dmb_output middle(const scene *s)
 {
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     output.place = dmb_station(s->string, 5, 1.0);
-    output.component = DMB_Z;
+    output.quantity += DMB_Z;
     return output;
 }
 
@@ -222,7 +222,7 @@ static void call_response(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_response_options options = dmb_response_options_default();
     const dmb_excitation input = tip_force(s);
-    const dmb_response_output output = middle(s);
+    const dmb_output output = middle(s);
     dmb_response *response = NULL;
     uint32_t shape[3] = {0, 0, 0};
     double values[1024] = {0.0};
@@ -242,7 +242,7 @@ static void call_response(dmb_sim *sim, const scene *s, answer *a)
 static void call_sine(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    const dmb_response_output output = middle(s);
+    const dmb_output output = middle(s);
     double amplitudes[64] = {0.0};
     options.windows = 3;
     options.harmonics = options.periods = 1;
@@ -255,7 +255,7 @@ static void call_speeds(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
-    const dmb_response_output output = middle(s);
+    const dmb_output output = middle(s);
     const double limit = 1e-5;
     dmb_speed_band bands[4];
     uint32_t count = 4;

@@ -88,7 +88,7 @@ static dmb_response *respond(scene *s)
 {
     dmb_response_options options = dmb_response_options_default();
     dmb_excitation input = dmb_excitation_default();
-    dmb_response_output output[2] = {dmb_response_output_default(), dmb_response_output_default()};
+    dmb_output output[2] = {{.quantity = DMB_OUTPUT_VIBRATION}, {.quantity = DMB_OUTPUT_VIBRATION}};
     dmb_response *response = NULL;
     options.points = 5;
     options.equilibrium_tolerance = 1.0;
@@ -96,10 +96,10 @@ static dmb_response *respond(scene *s)
     input.place = dmb_station(s->r.string, 2, 1.0);
     input.component = DMB_Y;
     output[0].place = dmb_station(s->r.string, 1, 0.5);
-    output[0].component = DMB_Y;
+    output[0].quantity += DMB_Y;
     output[1].place = input.place;
-    output[1].kind = DMB_RESPONSE_VELOCITY;
-    output[1].component = DMB_Y;
+    output[1].quantity = DMB_OUTPUT_VIBRATION_VELOCITY;
+    output[1].quantity += DMB_Y;
     if (dmb_analysis_response(s->sim, &options, &input, 1, output, 2, &response) < 0)
         fail_msg("%s", dmb_sim_message(s->sim));
     return response;
@@ -171,9 +171,9 @@ static int32_t write_to(int writer, scene *s, const char *path)
     case STRINGS: return dmb_write_vtk_strings(s->sim, 2, path);
     case HOLE: return dmb_write_vtk_hole(s->r.model, 0.0, 5.0, 0.5, 8, path);
     case MODE: return dmb_write_vtk_mode(s->modes, 0, 1.0, 0.0, 1, path);
-    case TABLE: return dmb_recorder_write_csv(&s->recorder, path);
+    case TABLE: return dmb_recorder_write_csv(&s->recorder, NULL, path);
     case PROFILES: return dmb_profile_recorder_write_csv(&s->profiles, path);
-    default: return dmb_response_write_csv(s->response, path);
+    default: return dmb_response_write_csv(s->response, NULL, path);
     }
 }
 
@@ -472,7 +472,7 @@ static void what_is_no_number(void **state)
     }
     assert_non_null(strstr(text, "Name=\"displacement\" NumberOfComponents=\"3\" format=\"ascii\""));
     s.table[4] = (double)NAN;
-    must(dmb_recorder_write_csv(&s.recorder, s.path));
+    must(dmb_recorder_write_csv(&s.recorder, NULL, s.path));
     text[content(s.path, text, sizeof text - 1)] = '\0';
     assert_non_null(strstr(text, ",nan,"));
     close_scene(&s);
@@ -495,7 +495,7 @@ static void response_reads_back(void **state)
         must(dmb_response_transfer(s.response, 0, k, values[0][k]));
         must(dmb_response_transfer(s.response, DMB_COMBINED, k, values[1][k]));
     }
-    must(dmb_response_write_csv(s.response, s.path));
+    must(dmb_response_write_csv(s.response, NULL, s.path));
     text[content(s.path, text, sizeof text - 1)] = '\0';
     char *at = strchr(text, '\n');
     assert_non_null(at);

@@ -178,7 +178,7 @@ static void recorders_and_files_have_messages(void **state)
     e = ASKED(dmb_recorder_take(&r, s.sim), DMB_ERR_VALUE);
     assert_string_equal(e.field, "interval");
     r.interval = 0.0;
-    assert_int_equal(dmb_recorder_write_csv(&r, "/no/such/folder/x.csv"), DMB_ERR_IO);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "/no/such/folder/x.csv"), DMB_ERR_IO);
     assert_non_null(strstr(last().message, "/no/such/folder/x.csv"));
     close_scene(&s);
 }

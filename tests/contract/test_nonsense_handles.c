@@ -514,7 +514,7 @@ static void create_needs_somewhere_to_put_it(void **state)
     assert_int_equal(dmb_model_create(NULL, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_sim_create(scene.model, NULL, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_sim_create_in(scene.model, NULL, scene.block, sizeof scene.block, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_recorder_write_csv(NULL, "/dev/null"), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(NULL, NULL, "/dev/null"), DMB_ERR_NULL);
 }
 
 /* Names of statuses, known and not. */

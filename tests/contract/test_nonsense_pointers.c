@@ -40,9 +40,9 @@ static dmb_excitation force(void)
     return input;
 }
 
-static dmb_response_output motion(void)
+static dmb_output motion(void)
 {
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     output.place = s.place;
     return output;
 }
@@ -89,7 +89,7 @@ static int set_up(void **state)
     (void)state;
     describe();
     const dmb_excitation input = force();
-    const dmb_response_output output = motion();
+    const dmb_output output = motion();
     const dmb_parameter p = parameter();
     const dmb_fatigue_options fatigue = fatigue_options();
     dmb_modes_options modes = dmb_modes_options_default();
@@ -186,7 +186,7 @@ static void of_responses(void **state)
     (void)state;
     dmb_response *made = NULL;
     const dmb_excitation input = force();
-    const dmb_response_output output = motion();
+    const dmb_output output = motion();
     uint32_t dimensions[3];
     double values[8];
     MISSING(dmb_analysis_response(NULL, NULL, &input, 1, &output, 1, &made));
@@ -199,12 +199,12 @@ static void of_responses(void **state)
     MISSING(dmb_response_frequencies(s.response, NULL));
     MISSING(dmb_response_transfer(NULL, 0, 0, values));
     MISSING(dmb_response_transfer(s.response, 0, 0, NULL));
-    MISSING(dmb_response_write_csv(NULL, "/dev/null"));
-    MISSING(dmb_response_write_csv(s.response, NULL));
+    MISSING(dmb_response_write_csv(NULL, NULL, "/dev/null"));
+    MISSING(dmb_response_write_csv(s.response, NULL, NULL));
     NO_OBJECT(dmb_response_dimensions(JUNK(dmb_response), dimensions));
     NO_OBJECT(dmb_response_frequencies(JUNK(dmb_response), values));
     NO_OBJECT(dmb_response_transfer(JUNK(dmb_response), 0, 0, values));
-    NO_OBJECT(dmb_response_write_csv(JUNK(dmb_response), "/dev/null"));
+    NO_OBJECT(dmb_response_write_csv(JUNK(dmb_response), NULL, "/dev/null"));
     expect(dmb_response_transfer(s.response, 1, 0, values), DMB_ERR_VALUE, "excitation 1 of one");
     expect(dmb_response_transfer(s.response, 0, 1, values), DMB_ERR_VALUE, "output 1 of one");
 }
@@ -212,7 +212,7 @@ static void of_responses(void **state)
 static void of_stepped_sines_and_speeds(void **state)
 {
     (void)state;
-    const dmb_response_output output = motion();
+    const dmb_output output = motion();
     const double limit = 1.0;
     double amplitudes[8];
     dmb_order order = dmb_order_default();
@@ -235,7 +235,7 @@ static void of_state_spaces(void **state)
     (void)state;
     dmb_state_space *made = NULL;
     const dmb_excitation input = force();
-    const dmb_response_output output = motion();
+    const dmb_output output = motion();
     dmb_state_space_info info = dmb_state_space_info_default();
     double values[24];
     uint32_t rows[24], count;

@@ -597,7 +597,7 @@ static int32_t call_recorder(void *p)
         recorder->capacity = 4;
         recorder->row_count = 0;
     }
-    const int32_t status = dmb_recorder_write_csv(recorder, "/dev/null");
+    const int32_t status = dmb_recorder_write_csv(recorder, NULL, "/dev/null");
     assert_int_equal(dmb_recorder_take(recorder, scene.sim), status);
     return status;
 }

@@ -617,12 +617,12 @@ static void recorders_that_are_none_are_refused(void **state)
     (void)state;
     whole_answers_init(&a, &scene.parts);
     good = a.recorder;
-#define BAD(field, value, wanted)                                           \
-    do {                                                                    \
-        a.recorder = good;                                                  \
-        a.recorder.field = (value);                                         \
-        refused(#field, dmb_recorder_take(&a.recorder, scene.sim), wanted); \
-        assert_true(dmb_recorder_write_csv(&a.recorder, "/dev/null") < 0);  \
+#define BAD(field, value, wanted)                                                \
+    do {                                                                         \
+        a.recorder = good;                                                       \
+        a.recorder.field = (value);                                              \
+        refused(#field, dmb_recorder_take(&a.recorder, scene.sim), wanted);      \
+        assert_true(dmb_recorder_write_csv(&a.recorder, NULL, "/dev/null") < 0); \
     } while (0)
     BAD(output_count, 0, DMB_ERR_VALUE);
     BAD(output_count, 4097, DMB_ERR_VALUE);

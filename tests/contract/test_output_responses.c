@@ -104,7 +104,7 @@ static int32_t transfer(scene *s, int32_t quantity, dmb_place place, double valu
     static const int32_t components[4] = {DMB_X, DMB_Y, DMB_Z, DMB_RX};
     dmb_response_options options = dmb_response_options_default();
     dmb_excitation inputs[4];
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     dmb_response *found = NULL;
     for (int i = 0; i < 4; i++) {
         inputs[i] = dmb_excitation_default();
@@ -112,8 +112,7 @@ static int32_t transfer(scene *s, int32_t quantity, dmb_place place, double valu
         inputs[i].component = components[i];
         inputs[i].amplitude = shares[i];
     }
-    output.kind = DMB_RESPONSE_OUTPUT;
-    output.component = quantity;
+    output.quantity = quantity;
     output.place = place;
     options.points = 1;
     options.frequency_low = options.frequency_high = 0.0;
@@ -130,7 +129,7 @@ static int compare(scene at[3], int32_t quantity)
     if (!place_of(&at[1], dmb_output_name_of(quantity)->place, &reading.place)) return 0;
     const int32_t status = transfer(&at[1], quantity, reading.place, got);
     if (status == DMB_ERR_UNSUPPORTED || status == DMB_ERR_VALUE) {
-        if (strstr(dmb_sim_message(at[1].r.sim), "output 0: ") == NULL) fail_msg("%s", dmb_sim_message(at[1].r.sim));
+        if (strstr(dmb_sim_message(at[1].r.sim), "output 0, ") == NULL) fail_msg("%s", dmb_sim_message(at[1].r.sim));
         return 0;
     }
     for (int i = 0; i < 3; i++) {

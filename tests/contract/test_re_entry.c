@@ -60,7 +60,7 @@ static int32_t call_response(dmb_sim *sim, scene *s)
 {
     dmb_response_options options = dmb_response_options_default();
     const dmb_excitation input = tip_load(dmb_station(s->string, 1, 1.0));
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     dmb_response *response = NULL;
     options.points = 3;
     options.equilibrium_tolerance = 1.0;
@@ -75,7 +75,7 @@ static int32_t call_response(dmb_sim *sim, scene *s)
 static int32_t call_sine(dmb_sim *sim, scene *s)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     double amplitudes[64];
     options.windows = 3;
     options.harmonics = options.periods = 1;
@@ -88,7 +88,7 @@ static int32_t call_speeds(dmb_sim *sim, scene *s)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order order = dmb_order_default();
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     const double limit = 1e-3;
     dmb_speed_band band = dmb_speed_band_default();
     uint32_t count = 1;

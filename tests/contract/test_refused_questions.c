@@ -87,7 +87,7 @@ static void stepped_sines(void **state)
 {
     (void)state;
     subject c;
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     double amplitudes[64];
     begin_beam(&c, 0.0);
@@ -104,7 +104,7 @@ static void stepped_sines(void **state)
     options.harmonics = 1;
     output.place.pipe = 1;
     expect(&c, dmb_analysis_stepped_sine(c.r.sim, 10.0, &options, &output, 1, amplitudes, NULL), DMB_ERR_VALUE,
-           "output 0: place, pipe 1 at 1: ");
+           "output 0, vibration_x of string 0 pipe 1 at 1: ");
     rig_close(&c.r);
 }
 

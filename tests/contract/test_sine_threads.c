@@ -18,7 +18,7 @@ typedef struct job {
     double frequency;
     dmb_model *model;
     dmb_sim *sim;
-    dmb_response_output output;
+    dmb_output output;
     dmb_stepped_sine_options options;
     int32_t status;
     double amplitudes[NUMBERS];
@@ -46,8 +46,8 @@ static void begin(job *j, double frequency)
     assert_int_equal(dmb_model_compile(j->model, NULL), DMB_OK);
     assert_int_equal(dmb_sim_create(j->model, NULL, &j->sim), DMB_OK);
     assert_int_equal(dmb_analysis_static(j->sim, NULL, NULL), DMB_OK);
-    j->output = dmb_response_output_default();
-    j->output.kind = DMB_RESPONSE_SECTION_FORCE;
+    j->output = (dmb_output){.quantity = DMB_OUTPUT_VIBRATION};
+    j->output.quantity = DMB_OUTPUT_SECTION_FORCE;
     j->output.place = dmb_station(drive.part, 0, 0.0);
     j->options = dmb_stepped_sine_options_default();
     j->options.steps_per_period = 32;
@@ -160,8 +160,8 @@ static void refusals(void **state)
     REFUSED(DMB_ERR_VALUE, j.options.tolerance = 0.0, "tolerance");
     REFUSED(DMB_ERR_VALUE, j.options.floor = 0.0, "floor");
     REFUSED(DMB_ERR_STRUCT_SIZE, j.options.struct_size = 1, "struct_size");
-    REFUSED(DMB_ERR_VALUE, j.output.kind = 16, "output 0: kind");
-    REFUSED(DMB_ERR_VALUE, j.output.place.pipe = 5, "output 0: place, pipe 5");
+    REFUSED(DMB_ERR_VALUE, j.output.quantity = 99, "output 0: quantity = 99");
+    REFUSED(DMB_ERR_VALUE, j.output.place.pipe = 5, "output 0, section_force_x of string 0 pipe 5 at 0: ");
 #undef REFUSED
     j = good;
     assert_int_equal(dmb_analysis_stepped_sine(NULL, 1.0, NULL, &j.output, 1, j.amplitudes, NULL), DMB_ERR_NULL);

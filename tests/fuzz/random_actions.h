@@ -134,7 +134,7 @@ static inline void take_rows(dmb_sim *sim, random_scene *c, dmb_window *window, 
         must_be_known(dmb_recorder_take(&recorder, sim));
     }
     MUST(recorder.row_count <= ROWS && table[3 * ROWS] == 0.5);
-    must_be_known(dmb_recorder_write_csv(&recorder, "/dev/null"));
+    must_be_known(dmb_recorder_write_csv(&recorder, NULL, "/dev/null"));
 }
 
 static inline void act_window(dmb_sim *sim, random_scene *c)

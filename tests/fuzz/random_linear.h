@@ -14,19 +14,14 @@ static inline dmb_id part_of_kind(const random_scene *c, uint32_t kind)
     return none;
 }
 
-static inline dmb_response_output draw_any_output(random_scene *c)
+static inline dmb_output draw_any_output(random_scene *c)
 {
     byte_source *s = &c->source;
     const dmb_output reading = draw_output(c);
-    dmb_response_output output = dmb_response_output_default();
-    output.kind = draw_chance(s, 60) ? DMB_RESPONSE_OUTPUT : (int32_t)draw_choice(s, 15);
-    output.place = reading.place;
-    output.component = output.kind == DMB_RESPONSE_OUTPUT ? reading.quantity : (int32_t)draw_below(s, 6);
-    output.frame = (int32_t)draw_below(s, 2);
-    if (output.kind < DMB_RESPONSE_CONTACT) output.place = draw_place(c);
-    if (output.kind == DMB_RESPONSE_DRIVE) output.place.part = part_of_kind(c, DMB_PART_DRIVE);
-    if (output.kind >= DMB_RESPONSE_JOINT_POSITION && output.kind <= DMB_RESPONSE_MULTIPLIER)
-        output.place.part = part_of_kind(c, DMB_PART_JOINT);
+    dmb_output output = {.place = reading.place, .quantity = reading.quantity};
+    if (draw_chance(s, 60)) return output;
+    output.quantity = DMB_OUTPUT_VIBRATION + 10 * (int32_t)draw_below(s, 6) + (int32_t)draw_below(s, 7);
+    output.place = draw_place(c);
     return output;
 }
 
@@ -131,7 +126,7 @@ static inline void act_response_in_axes(dmb_sim *sim, random_scene *c)
     const double frequencies[3] = {1.0, 2.0, 30.0};
     dmb_response_options options = dmb_response_options_default();
     const dmb_excitation inputs[2] = {draw_any_input(c), draw_any_input(c)};
-    const dmb_response_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
+    const dmb_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
     dmb_response *response = NULL;
     const uint64_t before = hash_of(sim);
     options.points = 3;
@@ -195,7 +190,7 @@ static inline void act_state_space(dmb_sim *sim, random_scene *c)
     dmb_state_space_info info = dmb_state_space_info_default();
     dmb_modes_options of_modes = dmb_modes_options_default();
     const dmb_excitation inputs[2] = {draw_any_input(c), draw_any_input(c)};
-    const dmb_response_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
+    const dmb_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
     dmb_state_space *space = NULL;
     dmb_modes *modes = NULL;
     const uint64_t before = hash_of(sim);

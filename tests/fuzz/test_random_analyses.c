@@ -180,13 +180,14 @@ static void act_modes(dmb_sim *sim, scene *c)
     MUST(hash_of(sim) == before);
 }
 
-static dmb_response_output draw_response_output(scene *c)
+static dmb_output draw_response_output(scene *c)
 {
-    dmb_response_output output = dmb_response_output_default();
-    output.kind = (int32_t)draw_below(&c->parts.source, 16);
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
+    const int32_t of_joint = (int32_t)draw_below(&c->parts.source, 2);
+    output.quantity = of_joint ? DMB_OUTPUT_JOINT_POSITION : DMB_OUTPUT_VIBRATION;
+    output.quantity += 10 * (int32_t)draw_below(&c->parts.source, 6) + (int32_t)draw_below(&c->parts.source, 6);
     output.place = draw_place(&c->parts);
-    output.component = (int32_t)draw_below(&c->parts.source, 6);
-    if (output.kind >= DMB_RESPONSE_JOINT_POSITION) output.place.part = c->joint[0];
+    if (of_joint) output.place.part = c->joint[0];
     return output;
 }
 
@@ -204,7 +205,7 @@ static void act_response(dmb_sim *sim, scene *c)
 {
     dmb_response_options options = dmb_response_options_default();
     const dmb_excitation inputs[2] = {draw_input(c), draw_input(c)};
-    const dmb_response_output outputs[2] = {draw_response_output(c), draw_response_output(c)};
+    const dmb_output outputs[2] = {draw_response_output(c), draw_response_output(c)};
     dmb_response *response = NULL;
     const uint64_t before = hash_of(sim);
     options.points = 3;
@@ -215,7 +216,7 @@ static void act_response(dmb_sim *sim, scene *c)
                                                  1 + draw_below(&c->parts.source, 2), &response);
     must_be_told(status);
     MUST((status >= 0) == (response != NULL));
-    if (response != NULL) MUST(dmb_response_write_csv(response, "/dev/null") == DMB_OK);
+    if (response != NULL) MUST(dmb_response_write_csv(response, NULL, "/dev/null") == DMB_OK);
     dmb_response_destroy(&response);
     MUST(hash_of(sim) == before);
 }
@@ -224,7 +225,7 @@ static void act_speeds(dmb_sim *sim, scene *c)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order order = dmb_order_default();
-    const dmb_response_output output = draw_response_output(c);
+    const dmb_output output = draw_response_output(c);
     const double limit = 1e-4;
     dmb_speed_band bands[2] = {dmb_speed_band_default(), dmb_speed_band_default()};
     uint32_t count = 2;
@@ -240,7 +241,7 @@ static void act_speeds(dmb_sim *sim, scene *c)
 static void act_sine(dmb_sim *sim, scene *c)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    const dmb_response_output output = draw_response_output(c);
+    const dmb_output output = draw_response_output(c);
     double amplitudes[4];
     options.steps_per_period = 16;
     options.periods = options.harmonics = 1;

@@ -527,11 +527,12 @@ static void analyses_know_or_refuse(void **state)
     dmb_response *response = NULL;
     dmb_response_options frequencies = dmb_response_options_default();
     dmb_excitation input = dmb_excitation_default();
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     assert_int_equal(dmb_analysis_modes(t.sim, NULL, &modes), DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_sim_message(t.sim), "modes: drive 0 has an actuator (delay, force_rate or lag)"));
     input.place = output.place = dmb_station(t.body, 0, 0.0);
-    input.component = output.component = DMB_RX;
+    input.component = DMB_RX;
+    output.quantity += DMB_RX;
     assert_int_equal(dmb_analysis_response(t.sim, &frequencies, &input, 1, &output, 1, &response), DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_sim_message(t.sim), "response: drive 0 has an actuator"));
     dmb_state_space *space = NULL;

@@ -330,9 +330,9 @@ static void windows_refuse(void **state)
 
 /* ---- As outputs of a response ------------------------------------------------------------------------------------ */
 
-static dmb_response_output output_output(dmb_id part, int32_t quantity)
+static dmb_output output_output(dmb_id part, int32_t quantity)
 {
-    return output_at(DMB_RESPONSE_OUTPUT, dmb_station(part, 0, 0.0), quantity);
+    return output_at(quantity, dmb_station(part, 0, 0.0), 0);
 }
 
 /* Transfer functions of outputs from a force of the rig against the stepped sine of the same outputs. */
@@ -348,7 +348,7 @@ static void in_responses(void **state)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_response_output outputs[6];
+    dmb_output outputs[6];
     double sine[6][4][2];
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -367,8 +367,7 @@ static void in_responses(void **state)
     rig_start(&s, NULL);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, force, DMB_X);
     for (int i = 0; i < 6; i++)
-        outputs[i] =
-            output_at(DMB_RESPONSE_OUTPUT, dmb_station(pipe.string, i < 2 ? 0 : 4, i < 2 ? 0.0 : 0.5), asked[i]);
+        outputs[i] = output_at(asked[i], dmb_station(pipe.string, i < 2 ? 0 : 4, i < 2 ? 0.0 : 0.5), 0);
     options.steps_per_period = 800;
     options.tolerance = 1e-5;
     const int32_t status = dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 6, &sine[0][0][0], NULL);
@@ -412,16 +411,16 @@ static void refused_in_responses(void **state)
     options.equilibrium_tolerance = 1.0;
     for (int i = 0; i < 6; i++) {
         dmb_response *response = NULL;
-        dmb_response_output output = output_output(i == 1 ? d.string : (dmb_id){0, 0}, refused[i]);
+        dmb_output output = output_output(i == 1 ? d.string : (dmb_id){0, 0}, refused[i]);
         assert_int_equal(dmb_analysis_response(d.s.sim, &options, &load, 1, &output, 1, &response),
                          DMB_ERR_UNSUPPORTED);
         const char *message = dmb_sim_message(d.s.sim);
         if (strstr(message, dmb_output_name(refused[i], NULL)) == NULL) fail_msg("says: %s", message);
     }
-    const dmb_response_output weight = output_output((dmb_id){0, 0}, DMB_OUTPUT_WEIGHT_ON_BIT);
+    const dmb_output weight = output_output((dmb_id){0, 0}, DMB_OUTPUT_WEIGHT_ON_BIT);
     transfer(&d.s, &options, &load, &weight, &frequency, 1, &value);
     check_close("weight on bit off bottom by the load", creal(value), 1.0, 0.0);
-    dmb_response_output unknown = output_output(d.string, 99);
+    dmb_output unknown = output_output(d.string, 99);
     dmb_response *response = NULL;
     assert_int_equal(dmb_analysis_response(d.s.sim, &options, &load, 1, &unknown, 1, &response), DMB_ERR_VALUE);
     rig_close(&d.s);

@@ -88,7 +88,7 @@ static void responses_on_springs_unlike(void **state)
     rig s;
     const dmb_place place = dmb_station(open_disc(&s, 1e6, 2e6), 0, 0.0);
     const dmb_excitation input = force_at(place, DMB_Z);
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Z);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, place, DMB_Z);
     dmb_response_options options = dmb_response_options_default();
     double complex value;
     dmb_response *response = NULL;

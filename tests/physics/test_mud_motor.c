@@ -318,8 +318,7 @@ static double *space_of(const motor_rig *r, size_t *count)
     dmb_state_space *space = NULL;
     dmb_excitation input = {
         .struct_size = sizeof input, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_EXCITATION_DRIVE};
-    dmb_response_output output = {
-        .struct_size = sizeof output, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_RESPONSE_DRIVE};
+    dmb_output output = {.place = dmb_station(r->motor, 0, 0.0), .quantity = DMB_OUTPUT_DRIVE_FORCE};
     must(&r->s, dmb_analysis_state_space(r->s.sim, &options, &input, 1, &output, 1, &space));
     assert_int_equal(dmb_state_space_get_info(space, &info), DMB_OK);
     const size_t n = info.states, sizes[] = {n * n, n, n, 1};
@@ -370,8 +369,7 @@ static void a_flat_piece_answers_to_nothing(void **state)
     motor_rig r = describe_by(&motor, 0.0, 2.0, 1);
     dmb_excitation input = {
         .struct_size = sizeof input, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_EXCITATION_DRIVE};
-    dmb_response_output output = {
-        .struct_size = sizeof output, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_RESPONSE_DRIVE};
+    dmb_output output = {.place = dmb_station(r.motor, 0, 0.0), .quantity = DMB_OUTPUT_DRIVE_FORCE};
     take_steps(&r.s, 1e-3, 1);
     (void)dmb_analysis_static(r.s.sim, NULL, NULL);
     assert_int_equal(dmb_analysis_state_space(r.s.sim, &options, &input, 1, &output, 1, &space), DMB_ERR_VALUE);

@@ -34,8 +34,7 @@ static dmb_id open_shaft(rig *s)
     return pipe.string;
 }
 
-static double complex in_axes(const rig *s, int32_t axes, dmb_excitation input, dmb_response_output output,
-                              double frequency)
+static double complex in_axes(const rig *s, int32_t axes, dmb_excitation input, dmb_output output, double frequency)
 {
     dmb_response_options options = dmb_response_options_default();
     double complex value;
@@ -45,7 +44,7 @@ static double complex in_axes(const rig *s, int32_t axes, dmb_excitation input, 
 }
 
 /* [m/N] of a force that goes round with w in the axes that turn: y + z/i, or against it where w < 0. */
-static double complex round_in_turning_axes(const rig *s, dmb_place place, dmb_response_output output, double w)
+static double complex round_in_turning_axes(const rig *s, dmb_place place, dmb_output output, double w)
 {
     const double complex z = w < 0.0 ? i_ : -i_;
     dmb_excitation along[2] = {force_at(place, DMB_Y), force_at(place, DMB_Z)};
@@ -66,10 +65,10 @@ static void out_of_balance(void **state)
     rig s;
     const dmb_id shaft = open_shaft(&s);
     const dmb_place place = dmb_station(shaft, 0, 0.4);
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(shaft, 0, 0.7), DMB_Y);
-    dmb_response_output inside = output;
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(shaft, 0, 0.7), DMB_Y);
+    dmb_output inside = output;
     dmb_excitation unbalance = force_at(place, DMB_RX);
-    inside.frame = DMB_FRAME_BODY;
+    inside.quantity += DMB_OUTPUT_VIBRATION_BODY - DMB_OUTPUT_VIBRATION;
     unbalance.kind = DMB_EXCITATION_UNBALANCE;
     unbalance.frame = DMB_FRAME_BODY;
     for (int k = 0; k < 4; k++) {
@@ -97,7 +96,7 @@ static void speeds_of_a_turning_shaft(void **state)
     dmb_order order = dmb_order_default();
     dmb_speed_band band = dmb_speed_band_default();
     uint32_t bands = 1;
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(shaft, 0, 0.5), DMB_Y);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(shaft, 0, 0.5), DMB_Y);
     how.kind = DMB_MODES_DAMPED;
     how.axes = DMB_MODES_AXES_AT_REST;
     dmb_modes *modes = find_modes(&s, &how);
@@ -141,7 +140,7 @@ static void refused_in_axes_at_rest(void **state)
     const dmb_id along = add_load(&s, &load);
     const dmb_id held = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_RX, add_constant(&s, 0.0));
     rig_start(&s, NULL);
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, load.place, DMB_X);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, load.place, DMB_X);
     dmb_excitation input = input_of(DMB_EXCITATION_LOAD, across, DMB_X);
     options.axes = DMB_RESPONSE_AXES_AT_REST;
     assert_int_equal(dmb_analysis_response(s.sim, &options, &input, 1, &output, 1, &response), DMB_ERR_UNSUPPORTED);
@@ -205,18 +204,18 @@ static void open_turning(turning *s, double shake, double frequency)
     (void)find_equilibrium(&s->rig, &statics);
 }
 
-static void outputs_of(const turning *s, dmb_response_output out[OUTPUTS])
+static void outputs_of(const turning *s, dmb_output out[OUTPUTS])
 {
-    out[0] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Y);
-    out[1] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Z);
-    out[2] = output_at(DMB_RESPONSE_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_Y);
-    out[3] = output_at(DMB_RESPONSE_CONTACT, dmb_station(s->string, 2, 0.0), DMB_Z); /* site 2, the end */
+    out[0] = output_at(DMB_OUTPUT_VIBRATION, dmb_station(s->string, 1, 0.5), DMB_Y);
+    out[1] = output_at(DMB_OUTPUT_VIBRATION, dmb_station(s->string, 1, 0.5), DMB_Z);
+    out[2] = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_Y);
+    out[3] = output_at(DMB_OUTPUT_CONTACT_NORMAL_FORCE, dmb_station(s->string, 2, 0.0), 0); /* site 2, the end */
 }
 
 static void linear_on_the_wall(double frequency, double complex out[OUTPUTS])
 {
     turning s;
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     open_turning(&s, 0.0, frequency);
     outputs_of(&s, outputs);
     for (int k = 0; k < OUTPUTS; k++)
@@ -231,7 +230,7 @@ static void in_time(double frequency, uint32_t steps, double complex out[OUTPUTS
     const double shake = 0.01;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_turning(&s, shake, frequency);
     outputs_of(&s, outputs);

@@ -71,7 +71,7 @@ static drilling drill(int32_t kind, int crowded)
     return d;
 }
 
-static double complex weight_by(const drilling *d, const dmb_response_output *output)
+static double complex weight_by(const drilling *d, const dmb_output *output)
 {
     const double frequency = 8.0;
     double complex h = 0.0;
@@ -87,9 +87,8 @@ static void one_bit_of_a_string(void **state)
 {
     (void)state;
     drilling d = drill(DMB_PIPE_FLEXIBLE, 1);
-    const dmb_response_output bit = output_at(DMB_RESPONSE_BIT, dmb_station(d.bit, 0, 0.0), DMB_X);
-    const dmb_response_output reading =
-        output_at(DMB_RESPONSE_OUTPUT, dmb_station(d.string, 0, 0.0), DMB_OUTPUT_WEIGHT_ON_BIT);
+    const dmb_output bit = output_at(DMB_OUTPUT_BIT_ROCK_WEIGHT, dmb_station(d.bit, 0, 0.0), 0);
+    const dmb_output reading = output_at(DMB_OUTPUT_WEIGHT_ON_BIT, dmb_station(d.string, 0, 0.0), 0);
     const double complex wanted = weight_by(&d, &bit);
     check_below("weight of the string", cabs(weight_by(&d, &reading) / wanted - 1.0), 1e-12);
     rig_close(&d.s);
@@ -102,8 +101,8 @@ static void on_the_axis_of_the_hole(void **state)
     for (int path = 0; path < 2; path++) {
         drilling d = drill(path ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE, 0);
         for (int c = 0; c < 2; c++) {
-            const dmb_response_output bit =
-                output_at(DMB_RESPONSE_BIT, dmb_station(d.bit, 0, 0.0), c == 0 ? DMB_X : DMB_RX);
+            const dmb_output bit =
+                output_at(c == 0 ? DMB_OUTPUT_BIT_ROCK_WEIGHT : DMB_OUTPUT_BIT_TORQUE, dmb_station(d.bit, 0, 0.0), 0);
             weight[path][c] = weight_by(&d, &bit);
         }
         rig_close(&d.s);

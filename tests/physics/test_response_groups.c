@@ -37,7 +37,7 @@ static dmb_id open_string(rig *s, int32_t kind, dmb_id drives[2])
 typedef struct question {
     dmb_response_options options;
     dmb_excitation excitations[EXCITATIONS];
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
 } question;
 
 /* Axial-torsional strings have no sideways motion. */
@@ -53,13 +53,13 @@ static question question_of(dmb_id string, const dmb_id drives[2], int32_t path)
         q.excitations[i].component = path ? 3 * ((int32_t)i % 2) : (int32_t)i % 6;
     }
     for (int i = 0; i < 2; i++) q.excitations[FORCES + i] = input_of(DMB_EXCITATION_DRIVE, drives[i], DMB_X);
-    q.outputs[0] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(string, 9, 1.0), path ? DMB_X : DMB_Z);
-    q.outputs[1] = output_at(DMB_RESPONSE_VELOCITY, dmb_station(string, 4, 1.0), DMB_RX);
-    q.outputs[2] = output_at(DMB_RESPONSE_REACTION, whole, DMB_X);
+    q.outputs[0] = output_at(DMB_OUTPUT_VIBRATION, dmb_station(string, 9, 1.0), path ? DMB_X : DMB_Z);
+    q.outputs[1] = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(string, 4, 1.0), DMB_RX);
+    q.outputs[2] = output_at(DMB_OUTPUT_REACTION, whole, DMB_X);
     q.outputs[2].place.part = string;
     q.outputs[3] = q.outputs[2];
-    q.outputs[3].component = DMB_RX;
-    q.outputs[4] = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(string, 5, 0.5), DMB_X);
+    q.outputs[3].quantity += DMB_RX;
+    q.outputs[4] = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(string, 5, 0.5), DMB_X);
     return q;
 }
 

@@ -29,8 +29,8 @@ static void jeffcott_rotor(void **state)
     const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
     dmb_excitation unbalance = force_at(dmb_station(body, 0, 0.0), DMB_RX);
     unbalance.kind = DMB_EXCITATION_UNBALANCE;
-    const dmb_response_output at_y = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y);
-    const dmb_response_output at_z = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z);
+    const dmb_output at_y = output_at(DMB_OUTPUT_VIBRATION, dmb_station(body, 0, 0.0), DMB_Y);
+    const dmb_output at_z = output_at(DMB_OUTPUT_VIBRATION, dmb_station(body, 0, 0.0), DMB_Z);
     transfer(&s, NULL, &own, &at_y, frequencies, 5, y);
     transfer(&s, NULL, &own, &at_z, frequencies, 5, z);
     transfer(&s, NULL, &unbalance, &at_y, frequencies, 5, given);
@@ -78,8 +78,7 @@ static void eccentric_in_one_way(void **state)
         const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
         double complex got[2];
         for (int c = 0; c < 2; c++) {
-            const dmb_response_output move =
-                output_at(DMB_RESPONSE_DISPLACEMENT, place, (way < 2 ? DMB_Y : DMB_RY) + c);
+            const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, place, (way < 2 ? DMB_Y : DMB_RY) + c);
             transfer(&s, NULL, &own, &move, &frequency, 1, got + c);
         }
         check_below("eccentric in one way: y", violation(got[0], w * w * (g[0] + i_ * g[1]) / left), 1e-11);
@@ -114,9 +113,9 @@ static void spinning_rotor(void **state)
     (void)rig_start(&s, NULL);
     take_steps(&s, 1e-3, 7);
     dmb_excitation force = force_at(shaft.place_b, DMB_Y);
-    dmb_response_output at_y = output_at(DMB_RESPONSE_DISPLACEMENT, shaft.place_b, DMB_Y), at_z = at_y;
-    at_z.component = DMB_Z;
-    force.frame = at_y.frame = at_z.frame = DMB_FRAME_BODY;
+    const dmb_output at_y = output_at(DMB_OUTPUT_VIBRATION_BODY, shaft.place_b, DMB_Y);
+    const dmb_output at_z = output_at(DMB_OUTPUT_VIBRATION_BODY, shaft.place_b, DMB_Z);
+    force.frame = DMB_FRAME_BODY;
     transfer(&s, NULL, &force, &at_y, frequencies, 3, y);
     transfer(&s, NULL, &force, &at_z, frequencies, 3, z);
     for (int i = 0; i < 3; i++) {
@@ -158,7 +157,7 @@ static void receptance_of_a_cantilever(void **state)
         (void)rig_start(&s, NULL);
         const dmb_place tip = dmb_station(string, 0, 1.0);
         const dmb_excitation force = force_at(tip, DMB_Z);
-        const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, tip, DMB_Z);
+        const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, tip, DMB_Z);
         transfer(&s, &options, &force, &move, frequencies, 5, h);
         for (int i = 0; i < 5; i++) worst = fmax(worst, fabs(cabs(h[i]) / receptance[i] - 1.0));
         print_message("tip receptance, %u elements: worst of five frequencies %.3e\n", elements, worst);
@@ -193,8 +192,8 @@ static double rod_moved_at_its_end(int32_t c, uint32_t elements)
     (void)rig_start(&s, NULL);
     const dmb_place end = dmb_station(pipe.string, 99, 1.0), start = dmb_station(pipe.string, 0, 0.0);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
-    const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, end, c);
-    const dmb_response_output load = output_at(DMB_RESPONSE_SECTION_FORCE, start, c);
+    const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, end, c);
+    const dmb_output load = output_at(DMB_OUTPUT_SECTION_FORCE, start, c);
     transfer(&s, NULL, &input, &move, frequencies, 3, tip);
     transfer(&s, NULL, &input, &load, frequencies, 3, section);
     for (int i = 0; i < 3; i++) {
@@ -242,8 +241,8 @@ static void controlled_mass(void **state)
     (void)rig_start(&s, NULL);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, control, DMB_X),
                          force = input_of(DMB_EXCITATION_DRIVE, push, DMB_X);
-    const dmb_response_output v = output_at(DMB_RESPONSE_VELOCITY, dmb_station(body, 0, 0.0), DMB_X);
-    const dmb_response_output a = output_at(DMB_RESPONSE_ACCELERATION, dmb_station(other, 0, 0.0), DMB_X);
+    const dmb_output v = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(body, 0, 0.0), DMB_X);
+    const dmb_output a = output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, dmb_station(other, 0, 0.0), DMB_X);
     transfer(&s, NULL, &input, &v, frequencies, 4, h);
     transfer(&s, NULL, &force, &a, frequencies, 4, free);
     for (int i = 0; i < 4; i++) {
@@ -299,8 +298,8 @@ static void reciprocity(void **state)
         for (int32_t k = DMB_X; k <= DMB_RZ; k++) {
             double complex there[3], back[3], own_a[3], own_b[3];
             const dmb_excitation at_a = force_at(a, i), at_b = force_at(b, k);
-            const dmb_response_output of_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, i);
-            const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, k);
+            const dmb_output of_a = output_at(DMB_OUTPUT_VIBRATION, a, i);
+            const dmb_output of_b = output_at(DMB_OUTPUT_VIBRATION, b, k);
             transfer(&s, NULL, &at_a, &of_b, frequencies, 3, there);
             transfer(&s, NULL, &at_b, &of_a, frequencies, 3, back);
             transfer(&s, NULL, &at_a, &of_a, frequencies, 3, own_a);
@@ -329,7 +328,7 @@ static void forces_on_supports(void **state)
     (void)rig_start(&s, NULL);
     const dmb_place support = dmb_station(pipe.string, 0, 0.0), tip = dmb_station(pipe.string, 1, 1.0);
     const dmb_place middle = dmb_station(pipe.string, 0, 1.0);
-    const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, tip, DMB_Y);
+    const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, tip, DMB_Y);
     double complex none, own, at_middle, at_tip;
     dmb_excitation force = force_at(support, DMB_Y);
     transfer(&s, NULL, &force, &move, &frequency, 1, &none);
@@ -360,10 +359,10 @@ static void joint_against_shared_node(void **state)
     for (int32_t i = DMB_X; i <= DMB_RZ; i++) {
         double complex x[4], y[4], p[4], q[4];
         const dmb_excitation at_a = force_at(a, i), at_c = force_at(c, i);
-        const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, i);
-        const dmb_response_output of_d = output_at(DMB_RESPONSE_DISPLACEMENT, d, i);
-        const dmb_response_output load_b = output_at(DMB_RESPONSE_SECTION_FORCE, a, i);
-        const dmb_response_output load_d = output_at(DMB_RESPONSE_SECTION_FORCE, c, i);
+        const dmb_output of_b = output_at(DMB_OUTPUT_VIBRATION, b, i);
+        const dmb_output of_d = output_at(DMB_OUTPUT_VIBRATION, d, i);
+        const dmb_output load_b = output_at(DMB_OUTPUT_SECTION_FORCE, a, i);
+        const dmb_output load_d = output_at(DMB_OUTPUT_SECTION_FORCE, c, i);
         transfer(&one, NULL, &at_a, &of_b, frequencies, 4, x);
         transfer(&two, NULL, &at_c, &of_d, frequencies, 4, y);
         transfer(&one, NULL, &at_a, &load_b, frequencies, 4, p);
@@ -407,8 +406,8 @@ static void many_joints_against_none(void **state)
     for (int32_t c = DMB_X; c <= DMB_RZ; c++) {
         double complex x[4], y[4];
         const dmb_excitation at_a = force_at(a, c), at_b = force_at(b, c);
-        const dmb_response_output of_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, c);
-        const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, c);
+        const dmb_output of_a = output_at(DMB_OUTPUT_VIBRATION, a, c);
+        const dmb_output of_b = output_at(DMB_OUTPUT_VIBRATION, b, c);
         transfer(&one, NULL, &at_a, &of_a, frequencies, 4, x);
         transfer(&many, NULL, &at_b, &of_b, frequencies, 4, y);
         for (int f = 0; f < 4; f++) worst = fmax(worst, violation(y[f], x[f]));
@@ -464,8 +463,8 @@ static void drives_of_joints(void **state)
         dmb_place a, b;
         const dmb_excitation of_string = input_of(DMB_EXCITATION_DRIVE, open_turned(&own, 0, kind, &a), DMB_X);
         const dmb_excitation of_joint = input_of(DMB_EXCITATION_DRIVE, open_turned(&jointed, 1, kind, &b), DMB_X);
-        const dmb_response_output at_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, DMB_RX);
-        const dmb_response_output at_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, DMB_RX);
+        const dmb_output at_a = output_at(DMB_OUTPUT_VIBRATION, a, DMB_RX);
+        const dmb_output at_b = output_at(DMB_OUTPUT_VIBRATION, b, DMB_RX);
         transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
         transfer(&jointed, NULL, &of_joint, &at_b, frequencies, 3, y);
         for (int f = 0; f < 3; f++) worst = fmax(worst, violation(y[f], x[f]));
@@ -505,10 +504,10 @@ static void drive_of_a_part_with_joints(void **state)
     (void)rig_start(&s, NULL);
     const dmb_place b = dmb_station(pipe.string, PIPES - 1, 1.0);
     const dmb_excitation of_chuck = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
-    const dmb_response_output at_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, DMB_RX);
-    const dmb_response_output at_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, DMB_RX);
-    const dmb_response_output in_a = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(a.part, 0, 0.0), DMB_RX);
-    const dmb_response_output in_b = output_at(DMB_RESPONSE_SECTION_FORCE, jaws.place_b, DMB_RX);
+    const dmb_output at_a = output_at(DMB_OUTPUT_VIBRATION, a, DMB_RX);
+    const dmb_output at_b = output_at(DMB_OUTPUT_VIBRATION, b, DMB_RX);
+    const dmb_output in_a = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(a.part, 0, 0.0), DMB_RX);
+    const dmb_output in_b = output_at(DMB_OUTPUT_SECTION_FORCE, jaws.place_b, DMB_RX);
     transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
     transfer(&s, NULL, &of_chuck, &at_b, frequencies, 3, y);
     transfer(&own, NULL, &of_string, &in_a, frequencies, 3, p);
@@ -548,7 +547,7 @@ static void peaks_and_sums(void **state)
     inputs[1].kind = DMB_EXCITATION_UNBALANCE;
     inputs[1].amplitude = 0.3;
     inputs[1].phase = 0.7;
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, spring.place_b, DMB_X);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, spring.place_b, DMB_X);
     dmb_response_options options = dmb_response_options_default();
     dmb_response *response = NULL;
     options.points = GRID;
@@ -598,14 +597,14 @@ static void eccentricity_grows_friction_does_not(void **state)
     (void)find_equilibrium(&s, NULL);
     const dmb_excitation friction = input_of(DMB_EXCITATION_FRICTION, (dmb_id){0, 0}, DMB_X);
     const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
-    const dmb_response_output axial = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
-    const dmb_response_output sideways = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(pipe.string, 10, 0.5), DMB_Y);
+    const dmb_output axial = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
+    const dmb_output sideways = output_at(DMB_OUTPUT_VIBRATION, dmb_station(pipe.string, 10, 0.5), DMB_Y);
     transfer(&s, NULL, &friction, &axial, frequencies, 3, rub);
     transfer(&s, NULL, &own, &sideways, frequencies, 3, whirl);
     check_close("friction: slope of the response by frequency", log10(cabs(rub[1]) / cabs(rub[0])), 0.0, 1e-6);
     check_close("eccentricity: slope", log10(cabs(whirl[1]) / cabs(whirl[0])), 2.0, 1e-6);
     const dmb_excitation around = input_of(DMB_EXCITATION_FRICTION, (dmb_id){0, 0}, DMB_RX);
-    const dmb_response_output torque = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_RX);
+    const dmb_output torque = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_RX);
     double complex turn[3];
     transfer(&s, NULL, &around, &torque, frequencies, 3, turn);
     check_relative("torque of the rings over their normal forces times their radius",
@@ -642,7 +641,7 @@ static void load_on_the_bit(void **state)
     (void)find_equilibrium(&s, NULL);
     const dmb_excitation load = input_of(DMB_EXCITATION_BIT_LOAD, bit, DMB_X);
     const dmb_excitation force = force_at(dmb_station(bit, 0, 0.0), DMB_X);
-    const dmb_response_output thrust = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
+    const dmb_output thrust = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
     transfer(&s, NULL, &load, &thrust, frequencies, 3, by_load);
     transfer(&s, NULL, &force, &thrust, frequencies, 3, by_force);
     for (int i = 0; i < 3; i++)

@@ -9,7 +9,7 @@ enum { OUTPUTS_MAX = 8 };
 
 typedef struct named_output {
     const char *name;
-    dmb_response_output output;
+    dmb_output output;
 } named_output;
 
 /* The linear response about the state of `still` against the first harmonic of `shaken`, whose time function is a sine;
@@ -20,7 +20,7 @@ static void compare(const rig *still, const rig *shaken, double tolerance, doubl
 {
     dmb_response_options about = dmb_response_options_default();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_response_output asked[OUTPUTS_MAX];
+    dmb_output asked[OUTPUTS_MAX];
     double amplitudes[OUTPUTS_MAX][4][2];
     double complex linear[OUTPUTS_MAX];
     about.equilibrium_tolerance = tolerance;
@@ -109,10 +109,10 @@ static void fed_on_the_wall(void **state)
         start(&s);
         const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
         const named_output outputs[4] = {
-            named("fed on the wall: friction of a ring", DMB_RESPONSE_CONTACT, number(5), DMB_X),
-            named("    force of the drive", DMB_RESPONSE_DRIVE, part(drive), DMB_X),
-            named("    reaction of support and drive", DMB_RESPONSE_REACTION, part(string), DMB_X),
-            named("    strain of a section", DMB_RESPONSE_SECTION_STRAIN, dmb_station(string, 5, 0.5), DMB_X),
+            named("fed on the wall: friction of a ring", DMB_OUTPUT_CONTACT_FRICTION_AXIAL, number(5), 0),
+            named("    force of the drive", DMB_OUTPUT_DRIVE_FORCE, part(drive), 0),
+            named("    reaction of support and drive", DMB_OUTPUT_REACTION, part(string), DMB_X),
+            named("    strain of a section", DMB_OUTPUT_SECTION_STRAIN, dmb_station(string, 5, 0.5), DMB_X),
         };
         compare(&s, &s, 1e-6, frequency, &input, amplitude, outputs, outputs, 4);
         rig_close(&s);
@@ -140,8 +140,8 @@ static void held_at_both_ends(void **state)
     load.time_function = add_constant(&s, 0.0);
     const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, add_load(&s, &load), DMB_X);
     start(&s);
-    const dmb_response_output force = output_at(DMB_RESPONSE_REACTION, part(id), DMB_Z);
-    const dmb_response_output moment = output_at(DMB_RESPONSE_REACTION, part(id), DMB_RY);
+    const dmb_output force = output_at(DMB_OUTPUT_REACTION, part(id), DMB_Z);
+    const dmb_output moment = output_at(DMB_OUTPUT_REACTION, part(id), DMB_RY);
     transfer(&s, NULL, &input, &force, &frequency, 1, &value);
     check_close("held at both ends: force of the clamp", creal(value), -0.5, 1e-6);
     transfer(&s, NULL, &input, &moment, &frequency, 1, &value);
@@ -162,9 +162,9 @@ static void pulled_on_the_wall(void **state)
     const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, add_load(&s, &load), DMB_X);
     start(&s);
     const named_output outputs[3] = {
-        named("pulled on the wall: normal force of a ring", DMB_RESPONSE_CONTACT, number(3), DMB_Z),
-        named("    force of the clamp", DMB_RESPONSE_REACTION, part(string), DMB_Z),
-        named("    moment of the clamp", DMB_RESPONSE_REACTION, part(string), DMB_RY),
+        named("pulled on the wall: normal force of a ring", DMB_OUTPUT_CONTACT_NORMAL_FORCE, number(3), 0),
+        named("    force of the clamp", DMB_OUTPUT_REACTION, part(string), DMB_Z),
+        named("    moment of the clamp", DMB_OUTPUT_REACTION, part(string), DMB_RY),
     };
     compare(&s, &s, 1e-6, frequency, &input, amplitude, outputs, outputs, 3);
     rig_close(&s);
@@ -195,7 +195,7 @@ static void rubbed_on_the_wall(void **state)
     for (int around = 0; around < 2; around++) {
         const int32_t c = around ? DMB_RX : DMB_X;
         const dmb_excitation input = input_of(DMB_EXCITATION_FRICTION, (dmb_id){0, 0}, c);
-        const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(string, 9, 1.0), c);
+        const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, dmb_station(string, 9, 1.0), c);
         transfer(&s, NULL, &input, &move, &zero, 1, got + around);
     }
     check_relative("rubbed on the wall: stretch", creal(got[0]), stretch, 1e-11);
@@ -222,19 +222,18 @@ static void rings_that_count_as_closed(void **state)
     for (int k = 0; k < 3; k++) { /* as they are, all within 6 mm, all of them */
         options.contact = k == 0 ? DMB_CONTACT_AS_IS : DMB_CONTACT_CLOSED;
         options.contact_gap = k == 1 ? 6e-3 : 1.0;
-        const dmb_response_output clamp = output_at(DMB_RESPONSE_REACTION, part(string), DMB_Z);
+        const dmb_output clamp = output_at(DMB_OUTPUT_REACTION, part(string), DMB_Z);
         transfer(&s, &options, &force, &clamp, &zero, 1, sum + k);
         for (uint32_t i = 0; i < info.contact_points; i++) {
             dmb_contact contact = dmb_contact_default();
             double complex normal;
             must(&s, dmb_query_contact(s.sim, i, &contact));
-            const dmb_response_output press = output_at(DMB_RESPONSE_CONTACT, number(i), DMB_Z);
+            const dmb_output press = output_at(DMB_OUTPUT_CONTACT_NORMAL_FORCE, number(i), 0);
             transfer(&s, &options, &force, &press, &zero, 1, &normal);
             closed[k] += cabs(normal) > 0.0;
             sum[k] -= normal * contact.normal[2];
             if (k == 0 || contact.closed || contact.pipe == DMB_NONE) continue;
-            const dmb_response_output move =
-                output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(string, contact.pipe, 1.0), DMB_Z);
+            const dmb_output move = output_at(DMB_OUTPUT_VIBRATION, dmb_station(string, contact.pipe, 1.0), DMB_Z);
             transfer(&s, &options, &force, &move, &zero, 1, &last);
             const double stiffness = contact.gap <= options.contact_gap ? s1_hole().stiffness * contact.length : 0.0;
             check_below("an open ring that counts as closed: its force, less k d",
@@ -297,11 +296,11 @@ static void turned_in_a_bearing(void **state)
     (void)open_bearing(&s, 1e-4, 0.0, 9.0, p);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, p[2], DMB_X);
     const named_output outputs[5] = {
-        named("turned in a bearing: force of the controller", DMB_RESPONSE_DRIVE, part(p[2]), DMB_X),
-        named("    angle of the bearing", DMB_RESPONSE_JOINT_POSITION, part(p[1]), DMB_RX),
-        named("    its speed", DMB_RESPONSE_JOINT_SPEED, part(p[1]), DMB_RX),
-        named("    its acceleration", DMB_RESPONSE_JOINT_ACCELERATION, part(p[1]), DMB_RX),
-        named("    torque of its spring and damper", DMB_RESPONSE_JOINT_ACTION, part(p[1]), DMB_RX),
+        named("turned in a bearing: force of the controller", DMB_OUTPUT_DRIVE_FORCE, part(p[2]), 0),
+        named("    angle of the bearing", DMB_OUTPUT_JOINT_POSITION, part(p[1]), DMB_RX),
+        named("    its speed", DMB_OUTPUT_JOINT_SPEED, part(p[1]), DMB_RX),
+        named("    its acceleration", DMB_OUTPUT_JOINT_ACCELERATION, part(p[1]), DMB_RX),
+        named("    torque of its spring and damper", DMB_OUTPUT_JOINT_ACTION, part(p[1]), DMB_RX),
     };
     compare(&s, &s, 1e-6, 9.0, &input, 1e-4, outputs, outputs, 5);
     rig_close(&s);
@@ -315,14 +314,14 @@ static void pulled_in_a_bearing(void **state)
     (void)open_bearing(&s, 0.0, 0.1, 9.0, p);
     const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, p[3], DMB_X);
     named_output outputs[6] = {
-        named("pulled in a bearing: force on it", DMB_RESPONSE_JOINT_REACTION, part(p[1]), DMB_Z),
-        named("    moment on it", DMB_RESPONSE_JOINT_REACTION, part(p[1]), DMB_RZ),
-        named("    moment in its own axes", DMB_RESPONSE_JOINT_REACTION, part(p[1]), DMB_RY),
-        named("    multiplier of its second equation", DMB_RESPONSE_MULTIPLIER, part(p[1]), 1),
-        named("    force of the chuck's support", DMB_RESPONSE_REACTION, part(p[0]), DMB_Y),
-        named("    moment of the chuck's support", DMB_RESPONSE_REACTION, part(p[0]), DMB_RY),
+        named("pulled in a bearing: force on it", DMB_OUTPUT_JOINT_REACTION, part(p[1]), DMB_Z),
+        named("    moment on it", DMB_OUTPUT_JOINT_REACTION, part(p[1]), DMB_RZ),
+        named("    moment in its own axes", DMB_OUTPUT_JOINT_REACTION, part(p[1]), DMB_RY),
+        named("    multiplier of its second equation", DMB_OUTPUT_MULTIPLIER, part(p[1]), 1),
+        named("    force of the chuck's support", DMB_OUTPUT_REACTION, part(p[0]), DMB_Y),
+        named("    moment of the chuck's support", DMB_OUTPUT_REACTION, part(p[0]), DMB_RY),
     };
-    outputs[2].output.frame = DMB_FRAME_BODY;
+    outputs[2].output.quantity += DMB_OUTPUT_JOINT_REACTION_BODY - DMB_OUTPUT_JOINT_REACTION;
     compare(&s, &s, 1e-6, 9.0, &input, 0.1, outputs, outputs, 6);
     rig_close(&s);
 }
@@ -356,10 +355,10 @@ static void driven_gears(void **state)
     (void)rig_start(&s, NULL);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
     const named_output outputs[4] = {
-        named("geared wheels: torque of the drive", DMB_RESPONSE_DRIVE, part(drive), DMB_X),
-        named("    multiplier of the gears", DMB_RESPONSE_MULTIPLIER, part(gear), 0),
-        named("    angle of the second wheel", DMB_RESPONSE_JOINT_POSITION, part(joint[1]), DMB_RX),
-        named("    torque of its spring", DMB_RESPONSE_JOINT_ACTION, part(joint[1]), DMB_RX),
+        named("geared wheels: torque of the drive", DMB_OUTPUT_DRIVE_FORCE, part(drive), 0),
+        named("    multiplier of the gears", DMB_OUTPUT_MULTIPLIER, part(gear), 0),
+        named("    angle of the second wheel", DMB_OUTPUT_JOINT_POSITION, part(joint[1]), DMB_RX),
+        named("    torque of its spring", DMB_OUTPUT_JOINT_ACTION, part(joint[1]), DMB_RX),
     };
     compare(&s, &s, 1e-6, frequency, &input, amplitude, outputs, outputs, 4);
     rig_close(&s);
@@ -396,8 +395,8 @@ static void load_of_a_joint_that_opens(void **state)
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
     dmb_excitation torque = input_of(DMB_EXCITATION_FORCE, wheel.part, DMB_RX);
     torque.place = wheel;
-    const dmb_response_output force = output_at(DMB_RESPONSE_DRIVE, part(drive), DMB_X);
-    const dmb_response_output action = output_at(DMB_RESPONSE_JOINT_ACTION, part(bearing), DMB_RX);
+    const dmb_output force = output_at(DMB_OUTPUT_DRIVE_FORCE, part(drive), 0);
+    const dmb_output action = output_at(DMB_OUTPUT_JOINT_ACTION, part(bearing), DMB_RX);
     transfer(&s, &options, &input, &force, &frequency, 1, &value);
     check_below("a load of a joint: its force over its target, off 1 by", cabs(value - 1.0), 1e-15);
     transfer(&s, &options, &torque, &action, &frequency, 1, &value);
@@ -435,7 +434,7 @@ static void bearings_that_share(void **state)
         const dmb_excitation force = force_at(place, c);
         double complex got[2];
         for (int i = 0; i < 2; i++) {
-            const dmb_response_output reaction = output_at(DMB_RESPONSE_JOINT_REACTION, part(bearing[i]), c);
+            const dmb_output reaction = output_at(DMB_OUTPUT_JOINT_REACTION, part(bearing[i]), c);
             transfer(&s, NULL, &force, &reaction, &frequency, 1, got + i);
         }
         check_below("bearings that share: the sum against the force", cabs(got[0] + got[1] + 1.0), 1e-12);
@@ -466,10 +465,10 @@ static dmb_id open_drilling(rig *s, double amplitude, double frequency, named_ou
         add_simple_drive(s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_shaking(s, feed, amplitude, frequency));
     const dmb_id turn = add_simple_drive(s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, add_constant(s, turning));
     (void)rig_start(s, NULL);
-    outputs[0] = named("drilling: weight on the bit", DMB_RESPONSE_BIT, part(id), DMB_X);
-    outputs[1] = named("    torque on the bit", DMB_RESPONSE_BIT, part(id), DMB_RX);
-    outputs[2] = named("    force of the feed", DMB_RESPONSE_DRIVE, part(advance), DMB_X);
-    outputs[3] = named("    torque of the drive", DMB_RESPONSE_DRIVE, part(turn), DMB_X);
+    outputs[0] = named("drilling: weight on the bit", DMB_OUTPUT_BIT_ROCK_WEIGHT, part(id), 0);
+    outputs[1] = named("    torque on the bit", DMB_OUTPUT_BIT_TORQUE, part(id), 0);
+    outputs[2] = named("    force of the feed", DMB_OUTPUT_DRIVE_FORCE, part(advance), 0);
+    outputs[3] = named("    torque of the drive", DMB_OUTPUT_DRIVE_FORCE, part(turn), 0);
     return advance;
 }
 

@@ -41,7 +41,7 @@ static void controllers(void **state)
         const dmb_id control = add_drive(&s, &drive);
         (void)rig_start(&s, NULL);
         const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, control, DMB_X);
-        const dmb_response_output speed = output_at(DMB_RESPONSE_VELOCITY, at(drive.part), DMB_X);
+        const dmb_output speed = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, at(drive.part), DMB_X);
         transfer(&s, NULL, &input, &speed, frequencies, 3, h);
         for (int i = 0; i < 3; i++) {
             const double complex iw = 2.0 * PI * frequencies[i] * i_, c = drive.gain + drive.integral_gain / iw;
@@ -72,9 +72,9 @@ static void drives_beside_joints(void **state)
     const dmb_id control = add_drive(&s, &drive);
     (void)rig_start(&s, NULL);
     const dmb_excitation moved = input_of(DMB_EXCITATION_DRIVE, motion, DMB_X), torque = force_at(at(body), DMB_RX);
-    const dmb_response_output speed = output_at(DMB_RESPONSE_VELOCITY, at(slider), DMB_X);
-    const dmb_response_output held = output_at(DMB_RESPONSE_DRIVE, at(control), DMB_X);
-    const dmb_response_output action = output_at(DMB_RESPONSE_JOINT_ACTION, at(bearing), DMB_RX);
+    const dmb_output speed = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, at(slider), DMB_X);
+    const dmb_output held = output_at(DMB_OUTPUT_DRIVE_FORCE, at(control), 0);
+    const dmb_output action = output_at(DMB_OUTPUT_JOINT_ACTION, at(bearing), DMB_RX);
     transfer(&s, NULL, &moved, &speed, &frequency, 1, &h);
     check_below("slider, speed over speed", off(h, 1.0), 1e-12);
     transfer(&s, NULL, &torque, &held, &frequency, 1, &h);
@@ -88,7 +88,7 @@ static void drives_beside_joints(void **state)
     rig_close(&s);
 }
 
-static void refuses(const rig *s, const dmb_excitation *input, const dmb_response_output *output, int32_t status,
+static void refuses(const rig *s, const dmb_excitation *input, const dmb_output *output, int32_t status,
                     const char *words)
 {
     dmb_response_options options = dmb_response_options_default();
@@ -124,7 +124,7 @@ static void what_turns_with_its_part(void **state)
         loads[k] = add_load(&s, &load);
     }
     (void)rig_start(&s, NULL);
-    const dmb_response_output output = output_at(DMB_RESPONSE_ACCELERATION, at(body), DMB_X);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, at(body), DMB_X);
     dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, push, DMB_X);
     refuses(&s, &input, &output, DMB_ERR_UNSUPPORTED, "the drive turns with its part");
     for (int k = 1; k < 3; k++) {
@@ -135,7 +135,7 @@ static void what_turns_with_its_part(void **state)
     input = input_of(DMB_EXCITATION_DRIVE, along, DMB_X);
     transfer(&s, &options, &input, &output, &frequency, 1, &h);
     check_below("along the axis", off(h, 1.0 / disc.mass), 1e-12);
-    const dmb_response_output spin = output_at(DMB_RESPONSE_ACCELERATION, at(body), DMB_RX);
+    const dmb_output spin = output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, at(body), DMB_RX);
     input = input_of(DMB_EXCITATION_LOAD, loads[0], DMB_X);
     transfer(&s, &options, &input, &spin, &frequency, 1, &h);
     check_below("about it", off(h, 1.0 / disc.inertia[0]), 1e-12);
@@ -157,14 +157,14 @@ static void section_at_the_end(void **state)
     const dmb_place end = dmb_station(rod, 0, 1.0), begin = dmb_station(rod, 0, 0.0);
     dmb_excitation pull = force_at(end, DMB_X);
     for (int i = 0; i < 2; i++) {
-        const dmb_response_output force = output_at(DMB_RESPONSE_SECTION_FORCE, i == 0 ? begin : end, DMB_X);
+        const dmb_output force = output_at(DMB_OUTPUT_SECTION_FORCE, i == 0 ? begin : end, DMB_X);
         transfer(&s, NULL, &pull, &force, &frequency, 1, &h);
         check_below("force over force", off(h, 1.0), 1e-6);
     }
     pull.kind = DMB_EXCITATION_UNBALANCE;
     pull.component = DMB_RX;
     pull.place.pipe = 7;
-    const dmb_response_output motion = output_at(DMB_RESPONSE_DISPLACEMENT, end, DMB_Y);
+    const dmb_output motion = output_at(DMB_OUTPUT_VIBRATION, end, DMB_Y);
     refuses(&s, &pull, &motion, DMB_ERR_VALUE, "excitation 0");
     rig_close(&s);
 }
@@ -194,7 +194,7 @@ static void speeds_that_leave_a_bearing_out(void **state)
     (void)add_joint(&s, &bearing);
     (void)rig_start(&s, NULL);
     order.excitation = force_at(at(frame), DMB_RY);
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, at(frame), DMB_RY);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, at(frame), DMB_RY);
     assert_int_equal(dmb_analysis_speeds(s.sim, &options, &order, 1, &output, &limit, 1, &band, &bands, NULL),
                      DMB_NOTE_INCOMPLETE);
     assert_non_null(strstr(dmb_sim_message(s.sim), "speeds: "));

@@ -65,7 +65,7 @@ static int32_t find_bands(const rig *s, dmb_place place, double margin, uint32_t
     const double limit = 1e-3;
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
-    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Y);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, place, DMB_Y);
     orders[0].excitation = force_at(place, DMB_Y);
     orders[0].excitation.kind = DMB_EXCITATION_UNBALANCE;
     orders[0].excitation.amplitude = 5e-3;
@@ -155,8 +155,8 @@ static void bands_that_run_into_each_other(void **state)
         dmb_speeds_report report = dmb_speeds_report_default();
         dmb_order orders[3] = {dmb_order_default(), dmb_order_default(), dmb_order_default()};
         dmb_speed_band bands[BANDS];
-        const dmb_response_output outputs[2] = {output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Y),
-                                                output_at(DMB_RESPONSE_VELOCITY, place, DMB_Y)};
+        const dmb_output outputs[2] = {output_at(DMB_OUTPUT_VIBRATION, place, DMB_Y),
+                                       output_at(DMB_OUTPUT_VIBRATION_VELOCITY, place, DMB_Y)};
         uint32_t count = (uint32_t)room;
         for (int i = 0; i < BANDS; i++) bands[i] = dmb_speed_band_default();
         for (int i = 0; i < 3; i++) {
@@ -210,8 +210,7 @@ static int32_t ask(int flags, double eta, double low, double high, dmb_speeds_re
     shaft.damping[1] = flags & UNDAMPED ? 0.0 : 100.0;
     must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
     (void)rig_start(&s, NULL);
-    const dmb_response_output output =
-        output_at(DMB_RESPONSE_DISPLACEMENT, shaft.place_b, flags & HELD_OUTPUT ? DMB_Z : DMB_Y);
+    const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, shaft.place_b, flags & HELD_OUTPUT ? DMB_Z : DMB_Y);
     order.excitation = force_at(shaft.place_b, DMB_Y);
     order.excitation.amplitude = flags & SILENT ? 0.0 : 200.0;
     options.points = 61;
@@ -284,7 +283,7 @@ static void gyroscopic_terms_do_not_damp(void **state)
         pipe.damping_time = damped ? 1e-4 : 0.0;
         const dmb_id id = add_pipes(&s, &pipe, 4);
         (void)rig_start(&s, NULL);
-        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(id, 3, 1.0), DMB_Y);
+        const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(id, 3, 1.0), DMB_Y);
         order.excitation = force_at(dmb_station(id, 3, 1.0), DMB_Y);
         options.report = &report;
         options.points = 5;

@@ -24,8 +24,8 @@ static double complex rotor_amplitude(double r, dmb_stepped_sine_report *report)
     options.steps_per_period = 400;
     options.harmonics = 1;
     options.tolerance = 1e-4;
-    const dmb_response_output outputs[2] = {output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
-                                            output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
+    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_VIBRATION, dmb_station(body, 0, 0.0), DMB_Y),
+                                   output_at(DMB_OUTPUT_VIBRATION, dmb_station(body, 0, 0.0), DMB_Z)};
     const int32_t status =
         dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
     must(&s, status);
@@ -59,7 +59,7 @@ static void spinning_jeffcott_rotor(void **state)
 enum { OUTPUTS = 4 };
 
 static void compare_with_linear(const rig *s, const char *what, double frequency, const dmb_excitation *input,
-                                double amplitude, const dmb_response_output *outputs)
+                                double amplitude, const dmb_output *outputs)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
@@ -111,9 +111,10 @@ static void shaken_cantilever(void **state)
         (void)find_equilibrium(&s, NULL);
         const dmb_place inside = dmb_station(string, 0, 0.45), clamp = dmb_station(string, 0, 0.0);
         const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, push, DMB_X);
-        const dmb_response_output outputs[OUTPUTS] = {
-            output_at(DMB_RESPONSE_DISPLACEMENT, inside, DMB_Z), output_at(DMB_RESPONSE_VELOCITY, load.place, DMB_Z),
-            output_at(DMB_RESPONSE_ACCELERATION, inside, DMB_RY), output_at(DMB_RESPONSE_SECTION_FORCE, clamp, DMB_RY)};
+        const dmb_output outputs[OUTPUTS] = {output_at(DMB_OUTPUT_VIBRATION, inside, DMB_Z),
+                                             output_at(DMB_OUTPUT_VIBRATION_VELOCITY, load.place, DMB_Z),
+                                             output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, inside, DMB_RY),
+                                             output_at(DMB_OUTPUT_SECTION_FORCE, clamp, DMB_RY)};
         compare_with_linear(&s, "cantilever", frequencies[i], &input, 0.5, outputs);
         rig_close(&s);
     }
@@ -156,11 +157,11 @@ static void string_on_its_wall(void **state)
         (void)find_equilibrium(&s, NULL);
         const int32_t c = pulled ? DMB_Z : DMB_X;
         const dmb_place middle = dmb_station(pipe.string, 5, 0.3);
-        const dmb_response_output outputs[OUTPUTS] = {
-            output_at(DMB_RESPONSE_DISPLACEMENT, middle, c),
-            output_at(DMB_RESPONSE_VELOCITY, dmb_station(pipe.string, 5, 1.0), c),
-            output_at(DMB_RESPONSE_ACCELERATION, middle, c),
-            output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 5, 0.0), pulled ? DMB_RY : DMB_X)};
+        const dmb_output outputs[OUTPUTS] = {
+            output_at(DMB_OUTPUT_VIBRATION, middle, c),
+            output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(pipe.string, 5, 1.0), c),
+            output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, middle, c),
+            output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 5, 0.0), pulled ? DMB_RY : DMB_X)};
         compare_with_linear(&s, pulled ? "pulled down on the wall" : "fed to and fro on the wall", frequency, &input,
                             amplitude, outputs);
         rig_close(&s);
@@ -209,9 +210,8 @@ static void two_inputs_together(void **state)
     inputs[0].amplitude = load;
     inputs[1].amplitude = push;
     inputs[1].phase = lead;
-    const dmb_response_output outputs[2] = {
-        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(bit, 0, 0.0), DMB_X),
-        output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
+    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_VIBRATION, dmb_station(bit, 0, 0.0), DMB_X),
+                                   output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
     dmb_response_options about = dmb_response_options_default();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_response *response = NULL;
@@ -265,8 +265,8 @@ static void eccentric_string_that_turns(void **state)
         open_eccentric(&still, 0.0, &at_rest);
         open_eccentric(&turning, 2.0 * PI * frequency, &string);
         const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
-        const dmb_response_output there = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(at_rest, 3, 1.0), DMB_Y);
-        const dmb_response_output here = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(string, 3, 1.0), DMB_Y);
+        const dmb_output there = output_at(DMB_OUTPUT_VIBRATION, dmb_station(at_rest, 3, 1.0), DMB_Y);
+        const dmb_output here = output_at(DMB_OUTPUT_VIBRATION, dmb_station(string, 3, 1.0), DMB_Y);
         options.steps_per_period = 400;
         options.tolerance = 1e-4;
         transfer(&still, NULL, &own, &there, &frequency, 1, &linear);
@@ -323,14 +323,14 @@ static void body_in_its_own_axes(void **state)
     const double complex by_force = 1.0 / (800.0 - 2.0 * w * w + i_ * w * 8.0);
     const double complex by_moment = 1.0 / (300.0 - 0.5 * w * w + i_ * w * 4.0);
     double amplitudes[TURNED_OUTPUTS][4][2];
-    dmb_response_output outputs[TURNED_OUTPUTS];
+    dmb_output outputs[TURNED_OUTPUTS];
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     rig s;
     const dmb_id body = open_turned_body(&s, tilt, frequency, force, moment);
     const dmb_pose pose = pose_at(&s, dmb_station(body, 0, 0.0));
     for (int k = 0; k < TURNED_OUTPUTS; k++) {
-        outputs[k] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), k % 6);
-        outputs[k].frame = k < 6 ? DMB_FRAME_WORLD : DMB_FRAME_BODY;
+        outputs[k] =
+            output_at(k < 6 ? DMB_OUTPUT_VIBRATION : DMB_OUTPUT_VIBRATION_BODY, dmb_station(body, 0, 0.0), k % 6);
     }
     options.steps_per_period = 400;
     options.tolerance = 1e-4;
@@ -398,7 +398,7 @@ static void oscillator_that_meets_a_stop(void **state)
         dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
         options.steps_per_period = 4000;
         options.periods = 1;
-        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_X);
+        const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(body, 0, 0.0), DMB_X);
         must(&s, dmb_analysis_stepped_sine(s.sim, frequencies[i], &options, &output, 1, &amplitudes[0][0][0], &report));
         assert_int_equal(report.settled, 1);
         reference_harmonics(frequencies[i], want);

@@ -50,15 +50,15 @@ static void open_blade(blade *b, int32_t component, double mean, double shake, d
 
 enum { OUTPUTS = 3 };
 
-static void outputs_of(const blade *b, int32_t component, dmb_response_output out[OUTPUTS])
+static void outputs_of(const blade *b, int32_t component, dmb_output out[OUTPUTS])
 {
-    for (int i = 0; i < OUTPUTS; i++) out[i] = dmb_response_output_default();
-    out[0].kind = DMB_RESPONSE_DRIVE;
+    for (int i = 0; i < OUTPUTS; i++) out[i] = (dmb_output){.quantity = DMB_OUTPUT_VIBRATION};
+    out[0].quantity = DMB_OUTPUT_DRIVE_FORCE;
     out[0].place.part = b->drive;
-    out[1].kind = out[2].kind = DMB_RESPONSE_SECTION_FORCE;
+    out[1].quantity = out[2].quantity = DMB_OUTPUT_SECTION_FORCE;
     out[1].place = out[2].place = dmb_station(b->string, 0, 0.0);
-    out[1].component = DMB_X;
-    out[2].component = component;
+    out[1].quantity += DMB_X;
+    out[2].quantity += component;
 }
 
 static void respond(int32_t component, double mean, double frequency, number out[OUTPUTS])
@@ -66,7 +66,7 @@ static void respond(int32_t component, double mean, double frequency, number out
     blade b;
     dmb_response_options options = dmb_response_options_default();
     dmb_excitation input = dmb_excitation_default();
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     dmb_response *response = NULL;
     open_blade(&b, component, mean, 0.0, frequency);
     outputs_of(&b, component, outputs);
@@ -91,7 +91,7 @@ static void step_sine(int32_t component, double mean, double frequency, uint32_t
     const double shake = 1e-4 * mean;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_blade(&b, component, mean, shake, frequency);
     outputs_of(&b, component, outputs);
@@ -139,7 +139,7 @@ static void not_shaken(void **state)
     (void)state;
     blade b;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_response_output outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_blade(&b, DMB_RZ, 5.0, 0.0, 1.0);
     outputs_of(&b, DMB_RZ, outputs);
@@ -159,11 +159,11 @@ static void displacement_that_turns(void **state)
     blade b;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     double amplitudes[2][2];
     open_blade(&b, DMB_RZ, 5.0, 5e-3, 1.3);
     output.place = dmb_station(b.string, 0, 1.0);
-    output.component = DMB_Y;
+    output.quantity += DMB_Y;
     options.harmonics = 1;
     options.windows = 20;
     assert_int_equal(dmb_analysis_stepped_sine(b.rig.sim, 1.3, &options, &output, 1, &amplitudes[0][0], &report),

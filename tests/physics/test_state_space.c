@@ -23,7 +23,7 @@ static double *matrix(const dmb_state_space *s, int32_t which, size_t rows, size
 }
 
 static model space_of(const rig *s, const dmb_state_space_options *options, const dmb_excitation *inputs,
-                      uint32_t input_count, const dmb_response_output *outputs, uint32_t output_count)
+                      uint32_t input_count, const dmb_output *outputs, uint32_t output_count)
 {
     dmb_state_space *found = NULL;
     model m = {.info = dmb_state_space_info_default()};
@@ -92,8 +92,8 @@ static void transfer_of(const model *m, double frequency, uint32_t input, double
 
 /* Largest difference to the frequency response, over the largest value of each transfer function. */
 static double against_response(const rig *s, const model *m, const dmb_response_options *about,
-                               const dmb_excitation *inputs, const dmb_response_output *outputs,
-                               const double *frequencies, uint32_t points)
+                               const dmb_excitation *inputs, const dmb_output *outputs, const double *frequencies,
+                               uint32_t points)
 {
     double worst = 0.0;
     for (uint32_t i = 0; i < m->info.inputs; i++) {
@@ -195,9 +195,9 @@ static string_rig open_string(int32_t kind, int moved, uint32_t pipes, double lo
     return open_string_with(kind, moved, pipes, load_at, 0);
 }
 
-static dmb_response_output reading_at(dmb_id string, uint32_t pipe, double fraction, int32_t quantity)
+static dmb_output reading_at(dmb_id string, uint32_t pipe, double fraction, int32_t quantity)
 {
-    return output_at(DMB_RESPONSE_OUTPUT, dmb_station(string, pipe, fraction), quantity);
+    return output_at(quantity, dmb_station(string, pipe, fraction), 0);
 }
 
 static void transfer_of_a_string(void **state)
@@ -212,16 +212,16 @@ static void transfer_of_a_string(void **state)
                     input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X), input_of(DMB_EXCITATION_DRIVE, r.turn, DMB_X),
                     input_of(DMB_EXCITATION_LOAD, r.load, DMB_X), force_at(dmb_station(r.string, 3, 0.5), DMB_X)};
                 const dmb_place none = dmb_station((dmb_id){0, 0}, 4, 0.0);
-                const dmb_response_output outputs[9] = {
+                const dmb_output outputs[9] = {
                     reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED),
                     reading_at(r.string, 2, 0.5, DMB_OUTPUT_SECTION_STRAIN),
-                    output_at(DMB_RESPONSE_VELOCITY, dmb_station(r.string, 5, 1.0), DMB_X),
-                    output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 3, 1.0), DMB_RX),
-                    output_at(DMB_RESPONSE_CONTACT, none, DMB_X),
-                    output_at(DMB_RESPONSE_DRIVE, dmb_station(moved ? r.turn : r.feed, 0, 0.0), DMB_X),
+                    output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(r.string, 5, 1.0), DMB_X),
+                    output_at(DMB_OUTPUT_VIBRATION, dmb_station(r.string, 3, 1.0), DMB_RX),
+                    output_at(DMB_OUTPUT_CONTACT_FRICTION_AXIAL, none, 0),
+                    output_at(DMB_OUTPUT_DRIVE_FORCE, dmb_station(moved ? r.turn : r.feed, 0, 0.0), 0),
                     reading_at(r.string, 0, 0.0, DMB_OUTPUT_HOOK_LOAD),
-                    output_at(DMB_RESPONSE_DRIVE, dmb_station(moved ? r.feed : r.turn, 0, 0.0), DMB_X),
-                    output_at(DMB_RESPONSE_REACTION, dmb_station(r.string, 0, 0.0), DMB_RX)};
+                    output_at(DMB_OUTPUT_DRIVE_FORCE, dmb_station(moved ? r.feed : r.turn, 0, 0.0), 0),
+                    output_at(DMB_OUTPUT_REACTION, dmb_station(r.string, 0, 0.0), DMB_RX)};
                 options.motion = motion;
                 const uint32_t count = motion == DMB_MOTION_SPEED ? 6 : 9;
                 model m = space_of(&r.s, &options, inputs, 4, outputs, count);
@@ -267,9 +267,9 @@ static void transfer_of_a_crowded_string(void **state)
     find_equilibrium(&s, NULL);
     const dmb_excitation inputs[2] = {input_of(DMB_EXCITATION_DRIVE, c.drive, DMB_X),
                                       force_at(dmb_station(c.string, 1, 0.35), DMB_Z)};
-    const dmb_response_output outputs[3] = {output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(c.string, 2, 0.5), DMB_Z),
-                                            output_at(DMB_RESPONSE_VELOCITY, dmb_station(c.string, 1, 0.35), DMB_RX),
-                                            reading_at(c.string, 3, 0.2, DMB_OUTPUT_TORQUE)};
+    const dmb_output outputs[3] = {output_at(DMB_OUTPUT_VIBRATION, dmb_station(c.string, 2, 0.5), DMB_Z),
+                                   output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(c.string, 1, 0.35), DMB_RX),
+                                   reading_at(c.string, 3, 0.2, DMB_OUTPUT_TORQUE)};
     model m = space_of(&s, NULL, inputs, 2, outputs, 3);
     check_below("a crowded string: against the frequency response",
                 against_response(&s, &m, NULL, inputs, outputs, frequencies, 5), 1e-9);
@@ -283,7 +283,7 @@ static void rate_is_refused(void **state)
     (void)state;
     string_rig r = open_string(DMB_PIPE_FLEXIBLE, 1, 3, 0.0);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X);
-    const dmb_response_output output = output_at(DMB_RESPONSE_DRIVE, dmb_station(r.feed, 0, 0.0), DMB_X);
+    const dmb_output output = output_at(DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.feed, 0, 0.0), 0);
     dmb_state_space *space = NULL;
     assert_int_equal(dmb_analysis_state_space(r.s.sim, NULL, &input, 1, &output, 1, &space), DMB_ERR_UNSUPPORTED);
     assert_null(space);
@@ -357,11 +357,11 @@ static void gyroscopic(void **state)
     rig_start(&s, NULL);
     const dmb_place centre = dmb_station(id, 0, 0.0);
     dmb_excitation inputs[2] = {force_at(centre, DMB_Y), force_at(centre, DMB_RY)};
-    dmb_response_output outputs[3] = {output_at(DMB_RESPONSE_DISPLACEMENT, centre, DMB_Y),
-                                      output_at(DMB_RESPONSE_VELOCITY, centre, DMB_RZ),
-                                      output_at(DMB_RESPONSE_ACCELERATION, centre, DMB_Z)};
+    dmb_output outputs[3] = {output_at(DMB_OUTPUT_VIBRATION, centre, DMB_Y),
+                             output_at(DMB_OUTPUT_VIBRATION_VELOCITY, centre, DMB_RZ),
+                             output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, centre, DMB_Z)};
     for (int i = 0; i < 2; i++) inputs[i].frame = DMB_FRAME_BODY;
-    for (int i = 0; i < 3; i++) outputs[i].frame = DMB_FRAME_BODY;
+    for (int i = 0; i < 3; i++) outputs[i].quantity += DMB_OUTPUT_VIBRATION_BODY - DMB_OUTPUT_VIBRATION;
     model m = space_of(&s, NULL, inputs, 2, outputs, 3);
     check_below("a spinning rotor: against the response",
                 against_response(&s, &m, NULL, inputs, outputs, frequencies, 5), 1e-9);
@@ -428,13 +428,12 @@ static void joints(void **state)
         }
         const dmb_excitation inputs[2] = {force_at(dmb_station(r.string, 0, 0.5), DMB_Z),
                                           input_of(DMB_EXCITATION_DRIVE, r.drive, DMB_X)};
-        const dmb_response_output outputs[6] = {
-            output_at(DMB_RESPONSE_JOINT_SPEED, dmb_station(r.slider, 0, 0.0), DMB_X),
-            output_at(DMB_RESPONSE_JOINT_POSITION, dmb_station(r.hinge, 0, 0.0), DMB_RX),
-            output_at(DMB_RESPONSE_JOINT_ACTION, dmb_station(r.slider, 0, 0.0), DMB_X),
-            output_at(DMB_RESPONSE_JOINT_REACTION, dmb_station(r.hinge, 0, 0.0), DMB_Z),
-            output_at(DMB_RESPONSE_MULTIPLIER, dmb_station(r.slider, 0, 0.0), 1),
-            output_at(DMB_RESPONSE_DRIVE, dmb_station(r.drive, 0, 0.0), DMB_X)};
+        const dmb_output outputs[6] = {output_at(DMB_OUTPUT_JOINT_SPEED, dmb_station(r.slider, 0, 0.0), DMB_X),
+                                       output_at(DMB_OUTPUT_JOINT_POSITION, dmb_station(r.hinge, 0, 0.0), DMB_RX),
+                                       output_at(DMB_OUTPUT_JOINT_ACTION, dmb_station(r.slider, 0, 0.0), DMB_X),
+                                       output_at(DMB_OUTPUT_JOINT_REACTION, dmb_station(r.hinge, 0, 0.0), DMB_Z),
+                                       output_at(DMB_OUTPUT_MULTIPLIER, dmb_station(r.slider, 0, 0.0), 1),
+                                       output_at(DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.drive, 0, 0.0), 0)};
         model force = space_of(&r.s, NULL, inputs, 1, outputs, 6);
         check_below("joints: a force against the response",
                     against_response(&r.s, &force, NULL, inputs, outputs, frequencies, 5), 1e-6);
@@ -472,7 +471,7 @@ static void joint_or_support(void **state)
         drive.time_function = add_constant(&s, 0.0);
         const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, add_drive(&s, &drive), DMB_X);
         rig_start(&s, NULL);
-        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(id, 0, 0.0), DMB_X);
+        const dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(id, 0, 0.0), DMB_X);
         model m = space_of(&s, NULL, &input, 1, &output, 1);
         assert_int_equal(m.info.states, 3);
         for (int p = 0; p < 5; p++) {
@@ -532,7 +531,7 @@ static void in_time(void **state)
     const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, still.load, DMB_X);
     for (int which = 0; which < 2; which++) {
         const int32_t quantity = which ? DMB_OUTPUT_BIT_SPEED : DMB_OUTPUT_POSITION_X;
-        const dmb_response_output output = reading_at(still.string, which ? 0 : 11, which ? 0.0 : 1.0, quantity);
+        const dmb_output output = reading_at(still.string, which ? 0 : 11, which ? 0.0 : 1.0, quantity);
         const dmb_output reading = {dmb_station(run.string, which ? 0 : 11, which ? 0.0 : 1.0), quantity, 0};
         double before, after;
         model full = space_of(&still.s, NULL, &input, 1, &output, 1);
@@ -573,8 +572,8 @@ static void settings_are_their_parts(void **state)
                                   DMB_EXCITATION_BIT_LOAD};
         dmb_state_space_options options = dmb_state_space_options_default();
         dmb_excitation by_part[4], by_setting[4];
-        const dmb_response_output outputs[2] = {reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED),
-                                                reading_at(r.string, 0, 0.0, DMB_OUTPUT_WEIGHT_ON_BIT)};
+        const dmb_output outputs[2] = {reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED),
+                                       reading_at(r.string, 0, 0.0, DMB_OUTPUT_WEIGHT_ON_BIT)};
         for (int i = 0; i < 4; i++) {
             by_part[i] = input_of(kinds[i], parts[i], DMB_X);
             by_setting[i] = input_of(DMB_EXCITATION_SETTING, r.setting[i], DMB_X);
@@ -609,7 +608,7 @@ static void step_of_a_setting(void **state)
         const int32_t quantity = i == 1 ? DMB_OUTPUT_ROTATION : DMB_OUTPUT_POSITION_X;
         const uint32_t pipe = i < 2 ? 2 : 11; /* drives push the rig end, the others the far end */
         const dmb_excitation input = input_of(DMB_EXCITATION_SETTING, r.setting[i], DMB_X);
-        const dmb_response_output output = reading_at(r.string, pipe, 1.0, quantity);
+        const dmb_output output = reading_at(r.string, pipe, 1.0, quantity);
         const dmb_output reading = {output.place, quantity, 0};
         double before, after;
         model m = space_of(&r.s, NULL, &input, 1, &output, 1);
@@ -648,13 +647,12 @@ static void step_of_a_load_drive(void **state)
     must_model(&s, dmb_model_add_input(s.model, &def, &input));
     rig_start(&s, NULL);
     const dmb_excitation asked = input_of(DMB_EXCITATION_SETTING, input, DMB_X);
-    const dmb_response_output output = reading_at(hinge, 0, 0.0, DMB_OUTPUT_JOINT_POSITION + DMB_RX);
-    const dmb_output reading = {output.place, output.component, 0};
+    const dmb_output output = reading_at(hinge, 0, 0.0, DMB_OUTPUT_JOINT_POSITION + DMB_RX);
     model m = space_of(&s, NULL, &asked, 1, &output, 1);
-    must(&s, dmb_query_output(s.sim, &reading, &before));
+    must(&s, dmb_query_output(s.sim, &output, &before));
     must(&s, dmb_sim_set_input(s.sim, input, u));
     take_steps(&s, 1e-3, 700);
-    must(&s, dmb_query_output(s.sim, &reading, &after));
+    must(&s, dmb_query_output(s.sim, &output, &after));
     const double d = c / (2.0 * I), w = sqrt(k / I - d * d);
     const double want = u / k * (1.0 - exp(-d * end) * (cos(w * end) + d / w * sin(w * end)));
     check_relative("a load drive: the state space in steps", u * simulate(&m, 0.0, end, 2000), want, 1e-5);
@@ -664,13 +662,13 @@ static void step_of_a_load_drive(void **state)
 }
 
 static void refused(const rig *s, const dmb_state_space_options *o, const dmb_excitation *input,
-                    const dmb_response_output *output, int32_t status, const char *says);
+                    const dmb_output *output, int32_t status, const char *says);
 
 static void settings_refused(void **state)
 {
     (void)state;
     string_rig r = open_string_with(DMB_PIPE_FLEXIBLE, 0, 3, 0.0, 1);
-    const dmb_response_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED);
+    const dmb_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED);
     dmb_excitation input = input_of(DMB_EXCITATION_SETTING, r.setting[4], DMB_X);
     refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "input \"friction\" has target 7");
     input.place.part = r.feed;
@@ -694,9 +692,8 @@ static void static_correction(void **state)
     const int32_t chosen[3] = {0, 2, 3};
     const dmb_excitation inputs[2] = {force_at(dmb_station(r.string, 5, 1.0), DMB_X),
                                       input_of(DMB_EXCITATION_DRIVE, r.turn, DMB_X)};
-    const dmb_response_output outputs[2] = {
-        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_X),
-        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_RX)};
+    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_VIBRATION, dmb_station(r.string, 4, 0.5), DMB_X),
+                                   output_at(DMB_OUTPUT_VIBRATION, dmb_station(r.string, 4, 0.5), DMB_RX)};
     const double slow = 1e-3;
     double off[2];
     lowest.count = 4;
@@ -958,8 +955,8 @@ static void nothing_free(void **state)
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_X, add_constant(&s, 0.0));
     rig_start(&s, NULL);
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
-    const dmb_response_output speed = output_at(DMB_RESPONSE_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
-    const dmb_response_output force = output_at(DMB_RESPONSE_DRIVE, dmb_station(drive, 0, 0.0), DMB_X);
+    const dmb_output speed = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
+    const dmb_output force = output_at(DMB_OUTPUT_DRIVE_FORCE, dmb_station(drive, 0, 0.0), 0);
     model m = space_of(&s, NULL, &input, 1, &speed, 1);
     assert_true(m.info.states == 1 && m.info.coordinates == 0);
     assert_true(m.A[0] == 0.0 && m.B[0] == 1.0 && m.C[0] == 0.0 && m.D[0] == 1.0);
@@ -982,7 +979,7 @@ static void memory_runs_out(void **state)
     const dmb_allocator allocator = scarce_allocator(&memory);
     dmb_sim *sim = NULL;
     const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X);
-    const dmb_response_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_HOOK_LOAD);
+    const dmb_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_HOOK_LOAD);
     const dmb_output reading = {dmb_station(r.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD, 0};
     options.allocator = &allocator;
     must_model(&r.s, dmb_sim_create(r.s.model, &options, &sim));
@@ -1017,7 +1014,7 @@ static void memory_runs_out(void **state)
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void refused(const rig *s, const dmb_state_space_options *o, const dmb_excitation *input,
-                    const dmb_response_output *output, int32_t status, const char *says)
+                    const dmb_output *output, int32_t status, const char *says)
 {
     dmb_state_space *space = (dmb_state_space *)(uintptr_t)8;
     const uint64_t before = rig_hash(s);
@@ -1033,7 +1030,7 @@ static void refusals(void **state)
     string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
     dmb_state_space_options o = dmb_state_space_options_default();
     dmb_excitation input = force_at(dmb_station(r.string, 1, 0.5), DMB_X);
-    dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 1, 0.5), DMB_X);
+    dmb_output output = output_at(DMB_OUTPUT_VIBRATION, dmb_station(r.string, 1, 0.5), DMB_X);
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_modes *modes = NULL, *other = NULL;
     o.form = 3;
@@ -1066,7 +1063,7 @@ static void refusals(void **state)
     refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "square of its frequency");
     input.kind = DMB_EXCITATION_FORCE;
     output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_STRETCH);
-    refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "output stretch");
+    refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "stretch of string 0: a magnitude");
     take_steps(&foreign.s, 1e-3, 1);
     dmb_modes_destroy(&modes);
     dmb_modes_destroy(&other);
@@ -1078,7 +1075,7 @@ static void refusals(void **state)
     const dmb_id id = add_body(&free_, &body);
     rig_start(&free_, NULL);
     input = force_at(dmb_station(id, 0, 0.0), DMB_X);
-    output = output_at(DMB_RESPONSE_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
+    output = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
     lowest.count = 6;
     must(&free_, dmb_analysis_modes(free_.sim, &lowest, &modes));
     o = dmb_state_space_options_default();

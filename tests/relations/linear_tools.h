@@ -38,11 +38,11 @@ static inline dmb_excitation input_of(const built *b, const material_point *at)
     return input;
 }
 
-static inline dmb_response_output output_of(const built *b, const material_point *at)
+static inline dmb_output output_of(const built *b, const material_point *at)
 {
-    dmb_response_output output = dmb_response_output_default();
+    dmb_output output = {.quantity = DMB_OUTPUT_VIBRATION};
     output.place = built_place(b, at->place);
-    output.component = at->component;
+    output.quantity += at->component;
     return output;
 }
 

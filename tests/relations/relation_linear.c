@@ -66,8 +66,7 @@ static void answer_of(const dmb_state_space *space, uint32_t n, uint32_t input, 
 }
 
 /* Forces at two places and, where there is one, what a drive is asked for; places that move, and a section force. */
-static void choose(const scene *s, const built *b, stream *n, dmb_excitation in[PLACES],
-                   dmb_response_output out[PLACES])
+static void choose(const scene *s, const built *b, stream *n, dmb_excitation in[PLACES], dmb_output out[PLACES])
 {
     for (int i = 0; i < PLACES; ++i) {
         const material_point from = draw_spot(s, n, 6), to = draw_spot(s, n, 6);
@@ -78,9 +77,10 @@ static void choose(const scene *s, const built *b, stream *n, dmb_excitation in[
         in[2].kind = DMB_EXCITATION_DRIVE;
         in[2].place.part = b->drive[0];
     }
-    out[1].kind = s->drives == 0 ? DMB_RESPONSE_ACCELERATION : DMB_RESPONSE_VELOCITY;
+    out[1].quantity +=
+        (s->drives == 0 ? DMB_OUTPUT_VIBRATION_ACCELERATION : DMB_OUTPUT_VIBRATION_VELOCITY) - DMB_OUTPUT_VIBRATION;
     if (s->drives > 0 && s->drive[0].def.kind == DMB_DRIVE_MOTION) return; /* forces beside it would feel its rate */
-    out[2].kind = DMB_RESPONSE_SECTION_FORCE;
+    out[2].quantity += DMB_OUTPUT_SECTION_FORCE - DMB_OUTPUT_VIBRATION;
     out[2].place.fraction = 0.5;
 }
 
@@ -88,7 +88,7 @@ static void check_spaced(trial *t)
 {
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_LINEAR);
     dmb_excitation in[PLACES];
-    dmb_response_output out[PLACES];
+    dmb_output out[PLACES];
     double list[FREQUENCIES], pair[FREQUENCIES][2];
     dmb_response *response = NULL;
     dmb_state_space *space = NULL;
@@ -290,7 +290,7 @@ static void check_seen(trial *t)
 static int32_t circle(built *b, part_ref place, const dmb_response_options *options, double complex *out)
 {
     dmb_excitation in[2];
-    dmb_response_output answer[2];
+    dmb_output answer[2];
     double pair[2];
     dmb_response *response = NULL;
     *out = 0.0;

@@ -30,7 +30,7 @@ static int32_t transfer(built *b, const dmb_response_options *options, const mat
                         double complex h[PLACES][PLACES][FREQUENCIES])
 {
     dmb_excitation inputs[PLACES];
-    dmb_response_output outputs[PLACES];
+    dmb_output outputs[PLACES];
     double values[FREQUENCIES][2];
     dmb_response *response = NULL;
     for (int i = 0; i < PLACES; ++i) {
@@ -325,7 +325,7 @@ static int32_t sine_at(const scene *s, const material_point *at, double frequenc
     sine.tolerance = 1e-5;
     sine.windows = 100;
     int32_t status = open_at_rest(s, &options, &b);
-    const dmb_response_output output = output_of(&b, at);
+    const dmb_output output = output_of(&b, at);
     if (status >= 0) status = dmb_analysis_stepped_sine(b.sim, frequency, &sine, &output, 1, amplitudes[0], &report);
     scene_close(&b);
     *out = number(amplitudes[1]);
@@ -356,7 +356,7 @@ static void check_sine(trial *t)
     if (status >= 0) status = dmb_analysis_modes(b.sim, NULL, &found);
     if (status >= 0) status = dmb_modes_get(found, 0, &mode);
     double frequency = mode.frequency * draw_number(&n, 0.5, 3.0);
-    const dmb_response_output output = output_of(&b, &at);
+    const dmb_output output = output_of(&b, &at);
     dmb_response_options options = dmb_response_options_default();
     options.frequencies = &frequency;
     options.points = 1;

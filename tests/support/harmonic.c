@@ -15,17 +15,14 @@ dmb_excitation input_of(int32_t kind, dmb_id part, int32_t component)
     return input;
 }
 
-dmb_response_output output_at(int32_t kind, dmb_place place, int32_t component)
+dmb_output output_at(int32_t quantity, dmb_place place, int32_t component)
 {
-    dmb_response_output output = dmb_response_output_default();
-    output.kind = kind;
-    output.place = place;
-    output.component = component;
+    const dmb_output output = {place, quantity + component, 0};
     return output;
 }
 
-void transfer(const rig *s, const dmb_response_options *options, const dmb_excitation *input,
-              const dmb_response_output *output, const double *frequencies, uint32_t points, double complex *values)
+void transfer(const rig *s, const dmb_response_options *options, const dmb_excitation *input, const dmb_output *output,
+              const double *frequencies, uint32_t points, double complex *values)
 {
     dmb_response_options with = options != NULL ? *options : dmb_response_options_default();
     dmb_response *response = NULL;

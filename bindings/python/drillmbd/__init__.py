@@ -27,8 +27,8 @@ from ._optional import numpy
 from ._record import Sized as _Sized
 from ._structs import *  # noqa: F401,F403
 from ._structs import STRUCTS
-from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, response_output, usual_operation
-from .outputs import output_name, output_names, output_quantity, output_unit
+from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, usual_operation
+from .outputs import output_name, output_names, output_of, output_text, output_quantity, output_unit
 from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
@@ -57,7 +57,7 @@ def __getattr__(name: str) -> object:
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
            "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace", "TorqueDrag", "Window", "output_name",
-           "output_names", "output_quantity", "output_unit", "motor_drive", "operation_name", "response_output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
+           "output_names", "output_of", "output_quantity", "output_text", "output_unit", "motor_drive", "operation_name", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

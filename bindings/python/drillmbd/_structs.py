@@ -3410,7 +3410,7 @@ class Sub(Sized):
 
 
 class Output(Record):
-    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (scene.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
+    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped sine, state space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (scene.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
     place: Place
     quantity: int
     reserved: int
@@ -3621,30 +3621,6 @@ class Excitation(Sized):
     }
 
 
-class ResponseOutput(Sized):
-    c_name, about = "dmb_response_output", "For dmb_analysis_response, dmb_analysis_stepped_sine, dmb_analysis_speeds, dmb_analysis_state_space."
-    struct_size: int
-    kind: int
-    place: Place
-    component: int
-    frame: int
-    if TYPE_CHECKING:
-        def __init__(self, *, kind: int = ..., place: Place | Id | None = ..., component: int = ..., frame: int = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("place", Place),
-        ("component", c_int32),
-        ("frame", c_int32),
-    ]
-    field_docs = {
-        "kind": ("", "RESPONSE_..., default RESPONSE_DISPLACEMENT"),
-        "place": ("", "required for some kinds"),
-        "component": ("", "X .. RZ, default X"),
-        "frame": ("", "FRAME_WORLD (default) or FRAME_BODY"),
-    }
-
-
 class SubDef(Sized):
     c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues the string after it. The body's reference point and axes are those of the far end of the string as it is described so far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end, and of the section's rig end."
     struct_size: int
@@ -3830,7 +3806,6 @@ STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode
 STRUCTS["dmb_mode_shape"] = ModeShape
 STRUCTS["dmb_excitation"] = Excitation
-STRUCTS["dmb_response_output"] = ResponseOutput
 STRUCTS["dmb_response_options"] = ResponseOptions
 STRUCTS["dmb_stepped_sine_options"] = SteppedSineOptions
 STRUCTS["dmb_stepped_sine_report"] = SteppedSineReport

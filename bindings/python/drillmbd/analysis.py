@@ -14,13 +14,14 @@ from ._parts import Parts, index_of, is_closed
 from ._optional import need, numpy
 from ._progress import Teller
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Excitation, Mode, ModeShape, ModesInfo,
-                       ModesOptions, Operation, Order, ResponseOutput, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
+                       ModesOptions, Operation, Order, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, RESPONSE_DISPLACEMENT,
+from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT,
                     Component, OperationKind)
 from .errors import Error, check
 from .frames import Columns, SpeedBands
+from .outputs import output_text, outputs_of
 
 if TYPE_CHECKING:
     from ._typed import AnalysisCalls
@@ -101,27 +102,27 @@ class Analyses(AnalysisCalls):
 
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
         @mirrors("dmb_analysis_response")
-        def response(self, excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput], options: ResponseOptions | None = None,
+        def response(self, excitations: Sequence[Excitation], outputs: Sequence[Any], options: ResponseOptions | None = None,
                      frequencies: Any = None, **fields: Any) -> Response:
-            """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
+            """Frequency response from every Excitation to every output about the present state, at `frequencies` [Hz] or on the
             grid that the ResponseOptions describe."""
             options = struct(ResponseOptions, options, fields)
             if frequencies is not None:
                 frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
                 options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-            given, asked, handle = row_of(Excitation, excitations, "excitations"), row_of(ResponseOutput, outputs, "outputs"), c_void_p()
+            given, asked, handle = row_of(Excitation, excitations, "excitations"), outputs_of(outputs, self._parts, "response"), c_void_p()
             self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked, len(outputs),
                                                    byref(handle)))
-            return Response(handle, [one.amplitude for one in given])
+            return Response(handle, [one.amplitude for one in given], [output_text(one, self._handle) for one in asked])
 
         @mirrors("dmb_analysis_stepped_sine")
-        def stepped_sine(self, frequency: float, outputs: Sequence[ResponseOutput], options: Any = None,
+        def stepped_sine(self, frequency: float, outputs: Sequence[Any], options: Any = None,
                          **fields: Any) -> tuple[Any, Any]:
-            """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
+            """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each output, mean and
             then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
             options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
             report: Any = STRUCTS["dmb_stepped_sine_report"]()
-            asked, width = row_of(ResponseOutput, outputs, "outputs"), 1 + options.harmonics
+            asked, width = outputs_of(outputs, self._parts, "stepped sine"), 1 + options.harmonics
             frequency = real(frequency, "stepped sine", "frequency", "Hz")
             values = (c_double * (2 * width * len(outputs)))()
             report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
@@ -139,15 +140,15 @@ class Analyses(AnalysisCalls):
             return Modes(handle, self)
 
         @mirrors("dmb_analysis_speeds")
-        def speeds(self, orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64,
+        def speeds(self, orders: Sequence[Order], outputs: Sequence[Any], limits: Sequence[float], room: int = 64,
                    options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
             """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
-            Order excites, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands state where the
+            Order excites, and limits are the amplitudes allowed of the outputs. `status` and `report` of the bands state where the
             result lacks excitation, damping or range (NOTE_INCOMPLETE)."""
             options = struct(SpeedsOptions, options, fields)
             room = whole(room, "speeds", "room", 1, 2 ** 20)
             allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
-            shakes, asked = row_of(Order, orders, "orders"), row_of(ResponseOutput, outputs, "outputs")
+            shakes, asked = row_of(Order, orders, "orders"), outputs_of(outputs, self._parts, "speeds")
             bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
             severity = (c_double * options.points)()
             found = SpeedBands()
@@ -280,11 +281,11 @@ class TorqueDrag:
 # ---- Frequency response ----------------------------------------------------------------------------------------------
 class Response(Handle):
     """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, excitations and outputs; `amplitudes`:
-    of the excitations, as they were given."""
+    of the excitations, as they were given; `names` of the outputs with their units, "vibration_z of string main pipe 3 at 0.5 [m]"."""
     _kind = "response"
 
-    def __init__(self, handle: c_void_p, amplitudes: list[float]) -> None:
-        self._handle, self.amplitudes = handle, amplitudes
+    def __init__(self, handle: c_void_p, amplitudes: list[float], names: list[str]) -> None:
+        self._handle, self.amplitudes, self.names = handle, amplitudes, names
         shape = (c_uint32 * 3)()
         check(_lib.dmb_response_dimensions(handle, shape))
         self.shape = tuple(shape)  # points, excitations, outputs
@@ -311,15 +312,15 @@ class Response(Handle):
     def frame(self, names: Sequence[str] | None = None) -> Any:
         """The combined outputs as a pandas frame of complex numbers over the frequency; names of the outputs with their
         units."""
-        names = names or [f"output {i}" for i in range(self.shape[2])]
+        names = names or self.names
         columns = {"frequency [Hz]": self.frequencies}
         columns.update((name, self.transfer(COMBINED, i)) for i, name in enumerate(names))
         return need("pandas").DataFrame(columns)
 
     @mirrors("dmb_response_write_csv")
-    def write_csv(self, path: Any) -> None:
-        """Writes amplitudes and phases as CSV."""
-        written(path, self._handle, _lib.dmb_response_write_csv(self._handle, path_of(path)))
+    def write_csv(self, path: Any, sim: Sim | None = None) -> None:
+        """Writes amplitudes and phases as CSV; sim: for names of parts in its heads, which are numbers without."""
+        written(path, self._handle, _lib.dmb_response_write_csv(self._handle, sim and sim._handle, path_of(path)))
 
 
 class Shaped(Handle):
@@ -428,11 +429,6 @@ class Modes(Shaped):
         written(path, self._handle, _lib.dmb_write_vtk_mode(
             self._handle, index, real(scale, "mode", "scale"), real(phase, "mode", "phase"),
             whole(per_element, "mode", "per_element", 1), path_of(path)))
-
-
-def response_output(place: Any, component: int = 0, kind: int = RESPONSE_DISPLACEMENT, frame: int = FRAME_WORLD) -> ResponseOutput:
-    """An Output of a response: `component` (X .. RZ) of a quantity (RESPONSE_...) at a place."""
-    return ResponseOutput(kind=kind, place=as_place(place), component=Component(component), frame=frame)
 
 
 def _array(values: Any) -> Any:

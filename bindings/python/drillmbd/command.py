@@ -401,12 +401,12 @@ def _live(options: Any) -> int:
 LEAST = {"response": """[[response.excitation]]
 kind = "eccentricity"          # excitation: eccentric pipes; or "drive", "load", "force" with a place
 [[response.output]]
-component = "z"
+quantity = "vibration-z"
 place = {place}
 """, "speeds": """[speeds]
 [[speeds.order]]               # eccentric pipes excite once a revolution
 [[speeds.output]]
-component = "z"
+quantity = "vibration-z"
 place = {place}
 limit = "1 mm"                 # the amplitude that may be
 """, "buckling": """[buckling]

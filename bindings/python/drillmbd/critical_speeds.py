@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import _structs, enums, no_response, rotating, speed_check, speed_range
+from ._structs import Output, Place
 from .results import RPM, CommandOutput
 from .errors import Usage
 from .language import Phrase, phrase
@@ -13,6 +14,9 @@ from .scene import Scene
 from .sim import Sim
 from .unit_systems import SI, Units
 
+#: Displacements across a string along x.
+LATERAL = (enums.OUTPUT_DISPLACEMENT_Y, enums.OUTPUT_DISPLACEMENT_Z,
+           *(base + component for base in (enums.OUTPUT_VIBRATION, enums.OUTPUT_VIBRATION_BODY) for component in (enums.Y, enums.Z)))
 LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
 
 
@@ -113,26 +117,26 @@ def left_out(report: Any) -> list[str]:
 
 
 # ---- Beyond the linear range -----------------------------------------------------------------------------------------
-def touches(scene: Scene, place: Any, amplitude: float, units: Units = SI) -> str:
+def touches(scene: Scene, place: Output, amplitude: float, units: Units = SI) -> str:
     """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
-    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.RESPONSE_DISPLACEMENT else None
+    clearance = clearance_at(scene, place.place) if place.quantity in LATERAL else None
     if clearance is None or amplitude <= clearance:
         return ""
     return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "
             f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear analysis")
 
 
-def clearance_at(scene: Scene, place: Any) -> float | None:
+def clearance_at(scene: Scene, place: Place) -> float | None:
     """[m] Radial clearance of the pipe at a place of a string; None without hole or pipe."""
     first = 0
     if not any(name == "add_wall" for name, _ in scene.model.calls):
         return None
     for name, arguments in scene.model.calls:
-        if name != "add_pipes" or arguments[1].get("string", place.place.part) != place.place.part:
+        if name != "add_pipes" or arguments[1].get("string", place.part) != place.part:
             continue
-        if first <= place.place.pipe < first + arguments[0]:
+        if first <= place.pipe < first + arguments[0]:
             with scene.new_sim() as sim:
-                depth = sim.pose(place.place).depth
+                depth = sim.pose(place).depth
             outer = float(arguments[1].get("outer_diameter", _structs.PipeDef().outer_diameter))
             return 0.5 * (float(scene.model.hole(depth).diameter) - outer)
         first += arguments[0]

@@ -967,6 +967,9 @@ class Reading(IntEnum):
     WORLD_ACCELERATION: [m/s2, rad/s2]
     BODY_VELOCITY: [m/s, rad/s]
     BODY_ACCELERATION: [m/s2, rad/s2]
+    VIBRATION: [m, rad] displacement from the state
+    VIBRATION_VELOCITY: [m/s, rad/s] its rate
+    VIBRATION_ACCELERATION: [m/s2, rad/s2]
     PROFILE: + PROFILE_...: at a place of a string; as dmb_query_profile, NaN included
     """
     HOOK_LOAD = 100
@@ -1074,6 +1077,12 @@ class Reading(IntEnum):
     WORLD_ACCELERATION = 430
     BODY_VELOCITY = 440
     BODY_ACCELERATION = 450
+    VIBRATION = 460
+    VIBRATION_BODY = 470
+    VIBRATION_VELOCITY = 480
+    VIBRATION_VELOCITY_BODY = 490
+    VIBRATION_ACCELERATION = 500
+    VIBRATION_ACCELERATION_BODY = 510
     PROFILE = 1000
     WINDOW_MINIMUM = 2000
     WINDOW_MAXIMUM = 2001
@@ -1188,6 +1197,12 @@ OUTPUT_WORLD_VELOCITY = Reading.WORLD_VELOCITY
 OUTPUT_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
 OUTPUT_BODY_VELOCITY = Reading.BODY_VELOCITY
 OUTPUT_BODY_ACCELERATION = Reading.BODY_ACCELERATION
+OUTPUT_VIBRATION = Reading.VIBRATION
+OUTPUT_VIBRATION_BODY = Reading.VIBRATION_BODY
+OUTPUT_VIBRATION_VELOCITY = Reading.VIBRATION_VELOCITY
+OUTPUT_VIBRATION_VELOCITY_BODY = Reading.VIBRATION_VELOCITY_BODY
+OUTPUT_VIBRATION_ACCELERATION = Reading.VIBRATION_ACCELERATION
+OUTPUT_VIBRATION_ACCELERATION_BODY = Reading.VIBRATION_ACCELERATION_BODY
 OUTPUT_PROFILE = Reading.PROFILE
 OUTPUT_WINDOW_MINIMUM = Reading.WINDOW_MINIMUM
 OUTPUT_WINDOW_MAXIMUM = Reading.WINDOW_MAXIMUM
@@ -1402,59 +1417,6 @@ EXCITATION_FRICTION = ExcitationKind.FRICTION
 EXCITATION_SETTING = ExcitationKind.SETTING
 
 
-class ResponseKind(IntEnum):
-    """Values DMB_RESPONSE_... of the headers.
-
-    DISPLACEMENT: [m, rad] of `place`, components along the axes of `frame`
-    VELOCITY: [m/s, rad/s] its rate
-    ACCELERATION: [m/s2, rad/s2] the rate of that
-    SECTION_FORCE: [N, N m] as dmb_query_section, section frame
-    SECTION_STRAIN: [-, rad/m] as dmb_query_section, section frame
-    CONTACT: [N] at contact point number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
-    DRIVE: [N, N m] force of the drive place.part, as dmb_query_drive; no component
-    REACTION: [N, N m] on the part place.part, as dmb_query_reaction
-    JOINT_SPEED: coordinates of the joint place.part and
-    JOINT_ACCELERATION: its forces: as dmb_query_joint
-    MULTIPLIER: number `component` of place.part, as dmb_query_multipliers
-    BIT: [N, N m] X weight, RX torque on the bit place.part by the rock law
-    OUTPUT: the output OUTPUT_... that `component` says, at `place`. In a stepped sine all but those of a window; in a linear analysis those that are linear in the motion: no magnitudes, sums over the string, energies, works (ERR_UNSUPPORTED)
-    """
-    DISPLACEMENT = 0
-    VELOCITY = 1
-    ACCELERATION = 2
-    SECTION_FORCE = 3
-    SECTION_STRAIN = 4
-    CONTACT = 5
-    DRIVE = 6
-    REACTION = 7
-    JOINT_POSITION = 8
-    JOINT_SPEED = 9
-    JOINT_ACCELERATION = 10
-    JOINT_REACTION = 11
-    JOINT_ACTION = 12
-    MULTIPLIER = 13
-    BIT = 14
-    OUTPUT = 15
-
-
-RESPONSE_DISPLACEMENT = ResponseKind.DISPLACEMENT
-RESPONSE_VELOCITY = ResponseKind.VELOCITY
-RESPONSE_ACCELERATION = ResponseKind.ACCELERATION
-RESPONSE_SECTION_FORCE = ResponseKind.SECTION_FORCE
-RESPONSE_SECTION_STRAIN = ResponseKind.SECTION_STRAIN
-RESPONSE_CONTACT = ResponseKind.CONTACT
-RESPONSE_DRIVE = ResponseKind.DRIVE
-RESPONSE_REACTION = ResponseKind.REACTION
-RESPONSE_JOINT_POSITION = ResponseKind.JOINT_POSITION
-RESPONSE_JOINT_SPEED = ResponseKind.JOINT_SPEED
-RESPONSE_JOINT_ACCELERATION = ResponseKind.JOINT_ACCELERATION
-RESPONSE_JOINT_REACTION = ResponseKind.JOINT_REACTION
-RESPONSE_JOINT_ACTION = ResponseKind.JOINT_ACTION
-RESPONSE_MULTIPLIER = ResponseKind.MULTIPLIER
-RESPONSE_BIT = ResponseKind.BIT
-RESPONSE_OUTPUT = ResponseKind.OUTPUT
-
-
 class ResponseAxes(IntEnum):
     """Values DMB_RESPONSE_... of the headers."""
     AXES_TURNING = 0
@@ -1657,7 +1619,6 @@ ENUMS = (
     ModesSelect,
     ModesAxes,
     ExcitationKind,
-    ResponseKind,
     ResponseAxes,
     StateForm,
     MotionInput,

@@ -3,14 +3,17 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator
-from ctypes import byref, c_char_p, c_int32
+from ctypes import byref, c_char_p, c_int32, create_string_buffer
 from enum import IntEnum
 from typing import Any
 
+from ._keep import as_place, station
 from ._library import lib as _lib
-from ._values import refuse_value, shown, whole
+from ._parts import Parts
+from ._structs import Id, Output, Place
+from ._values import refuse_type, refuse_value, shown, whole
 from .enums import OUTPUT_WINDOW_MINIMUM, ERR_VALUE, Quantity, Reading
-from .errors import WrongValue
+from .errors import WrongValue, check
 
 
 def output_numbers() -> Iterator[int]:
@@ -22,18 +25,18 @@ def output_numbers() -> Iterator[int]:
 
 
 def output_name(quantity: int) -> str:
-    """Name of a output, as "bit_speed"."""
+    """Name of an output, as "bit_speed"."""
     found = _lib.dmb_output_name(int(quantity), None)
     if found is None:
-        refuse_value("output", "quantity", quantity, "be the number of a output, OUTPUT_...")
+        refuse_value("output", "quantity", quantity, "be the number of an output, OUTPUT_...")
     return str(found.decode())
 
 
 def output_unit(quantity: int) -> str:
-    """Unit of a output, as "rad/s"."""
+    """Unit of an output, as "rad/s"."""
     unit = c_char_p()
     if _lib.dmb_output_name(int(quantity), byref(unit)) is None:
-        refuse_value("output", "quantity", quantity, "be the number of a output, OUTPUT_...")
+        refuse_value("output", "quantity", quantity, "be the number of an output, OUTPUT_...")
     return (unit.value or b"").decode()
 
 
@@ -49,6 +52,37 @@ def output_quantity(name: str | int) -> int:
         raise WrongValue(ERR_VALUE, f"output: quantity = {shown(name)}, must be one of drillmbd.output_names()"
                          + (f"; '{close[0]}'?" if close else ""))
     return number.value
+
+
+def output_of(given: Any, parts: Parts | None = None, word: str = "output") -> Output:
+    """The Output: one, a pair (place, "bit_speed") or (place, OUTPUT_...), or a name or number without a place. The place may be a part or its
+    name."""
+    if isinstance(given, Output):
+        output_name(given.quantity)
+        return given
+    if isinstance(given, (str, int)):
+        given = (None, given)
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        refuse_type(word, "output", given, 'be a pair (place, "bit_speed")')
+    place, quantity = given
+    if isinstance(quantity, (Place, Id)):
+        refuse_type(word, "output", given, 'have the place first: (place, "bit_speed")')
+    return Output(station(Id(), place) if isinstance(place, int) else as_place(place, parts), output_quantity(quantity), 0)
+
+
+def outputs_of(outputs: Any, parts: Parts | None = None, word: str = "call") -> Any:
+    """The C array of outputs, each as of output_of."""
+    if isinstance(outputs, (Output, str)):
+        refuse_type(word, "outputs", outputs, 'be a list, [(place, "bit_speed")]')
+    made = [output_of(one, parts, f"{word} output {number}") for number, one in enumerate(outputs)]
+    return (Output * len(made))(*made)
+
+
+def output_text(output: Output, sim: Any = None) -> str:
+    """The output as the head of a column, "drive_force of drive table [N m]"; without a sim parts have numbers."""
+    text = create_string_buffer(512)
+    check(_lib.dmb_output_text(sim, byref(output), text, len(text)))
+    return text.value.decode()
 
 
 def output_names() -> list[str]:

@@ -7,14 +7,13 @@ from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double
 from typing import TYPE_CHECKING, Any
 
-from ._keep import as_id, as_place, mirrors, path_of, station, written
+from ._keep import as_id, mirrors, path_of, written
 from ._library import lib as _lib
 from ._optional import need, numpy
-from ._parts import named
-from ._structs import Output, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
+from ._structs import Output, Id, ProfileRecorderStruct, ProfileStruct, RecorderStruct
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .outputs import output_name, output_quantity, output_unit
-from .enums import PartKind, OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
+from .outputs import output_name, output_of, output_text
+from .enums import OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
 
 from .profile import unit_of, values_of
 from .running import sample_due
@@ -23,19 +22,16 @@ if TYPE_CHECKING:
     from .sim import Sim
     from .window import Window
 
-def _output(number: int, given: Any) -> tuple[Any, ...]:
-    """(place, number of the quantity, perhaps a name) of a pair or triple."""
+def _output(number: int, given: Any, parts: Any) -> tuple[Any, ...]:
+    """The Output, perhaps with a name, of a pair or triple."""
     part = f"recorder output {number}"
-    if isinstance(given, str):
-        given = (None, given)
+    if isinstance(given, (str, Output)):
+        return (output_of(given, parts, part),)
     if not isinstance(given, (tuple, list)) or len(given) not in (2, 3):
         refuse_type(part, "output", given, 'be a pair (place, "bit_speed") or a triple with a name')
-    place, quantity, *name = given
-    if isinstance(quantity, (Place, Id)):
-        refuse_type(part, "output", given, 'have the place first: (place, "bit_speed")')
-    if name and not isinstance(name[0], str):
-        refuse_type(part, "name", name[0], "be a text")
-    return (station(Id(), place) if isinstance(place, int) else place, output_quantity(quantity), *name)
+    if len(given) == 3 and not isinstance(given[2], str):
+        refuse_type(part, "name", given[2], "be a text")
+    return output_of(tuple(given[:2]), parts, part), *given[2:]
 
 
 def _interval(value: Any) -> float:
@@ -55,11 +51,9 @@ class Recorder:
                  window: Window | None = None) -> None:
         self.sim, self._window = sim, window
         capacity, interval = whole(capacity, "recorder", "capacity", 1, 2 ** 40), _interval(interval)
-        outputs = [_output(number, one) for number, one in enumerate(outputs)]
-        outputs = [(place if place is None else as_place(place, sim._parts), *more) for place, *more in outputs]
-        self._names = [self._name(*output) for output in outputs]
-        self._outputs = (Output * len(outputs))(*[Output(as_place(place), quantity, 0)
-                                                     for place, quantity, *_ in outputs])
+        asked = [_output(number, one, sim._parts) for number, one in enumerate(outputs)]
+        self._outputs = (Output * len(outputs))(*[one for one, *_ in asked])
+        self._names = [name[0] if name else output_text(one, sim._handle) for one, *name in asked]
         self._width = 1 + len(outputs)
         if window is None:
             sim._check(_lib.dmb_output_check(sim._handle, self._outputs, len(outputs)))
@@ -73,17 +67,6 @@ class Recorder:
         self._struct.outputs = ctypes.cast(self._outputs, POINTER(Output))
         self._struct.table = table
         self._struct.window = None if window is None else window._handle
-
-    def _name(self, place: Any, quantity: int, name: str | None = None) -> str:
-        if name is not None:
-            return name
-        at = as_place(place)
-        part = self.sim._parts.name_of(at.part) if at.part else ""
-        string = at.part.index >> 24 == PartKind.STRING
-        where = f" {part or named(at.part)}" + (f" pipe {at.pipe} at {at.fraction:g}" if string else "") if at.part else ""
-        if not at.part and at.pipe:
-            where = f" {at.pipe}"
-        return f"{output_name(quantity)}{where} [{output_unit(quantity)}]"
 
     @mirrors("dmb_recorder_take")
     def take(self) -> int:
@@ -129,7 +112,7 @@ class Recorder:
     @mirrors("dmb_recorder_write_csv")
     def write_csv(self, path: Any) -> None:
         """Writes the table as CSV."""
-        written(path, self._struct, _lib.dmb_recorder_write_csv(byref(self._struct), path_of(path)))
+        written(path, self._struct, _lib.dmb_recorder_write_csv(byref(self._struct), self.sim._handle, path_of(path)))
 
 
 class ProfileRecorder:

@@ -6,10 +6,10 @@ from ctypes import byref, c_double, c_uint32, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
-from ._keep import as_place, mirrors
+from ._keep import mirrors
 from ._library import lib as _lib
-from ._structs import Output, Parameter, StepReport
-from .outputs import output_quantity
+from ._structs import Parameter, StepReport
+from .outputs import outputs_of
 
 if TYPE_CHECKING:
     from .model import Model
@@ -49,8 +49,7 @@ class Sensitivity(Handle):
     def outputs(self, outputs: Sequence[Any]) -> tuple[list[float], list[list[float]]]:
         """Values of outputs, pairs (place, "bit_speed"), and of each its derivatives by the parameters in their order
         [unit of the output over that of the parameter]."""
-        asked = (Output * len(outputs))(*[Output(as_place(place, self.sim._parts), output_quantity(quantity), 0)
-                                            for place, quantity in outputs])
+        asked = outputs_of(outputs, self.sim._parts, "sensitivity")
         count = len(self.names)
         values, derivatives = (c_double * len(outputs))(), (c_double * (len(outputs) * count))()
         self.sim._check(_lib.dmb_sensitivity_outputs(self._handle, asked, len(outputs), values, derivatives))

@@ -14,11 +14,11 @@ from ._library import lib as _lib
 from ._parts import closed, index_of, is_closed
 from ._progress import INTERRUPTS, Teller
 from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Excitation, JointState,
-                       Momentum, Motion, ResponseOutput, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
+                       Momentum, Motion, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import BitId, DriveId, EventReport, JointId, SpringId, StringId, StuckId
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .outputs import output_quantity
+from .outputs import output_of
 from .enums import FRAME_WORLD, OK
 from .errors import Error, check
 from .inputs import InputLog, Inputs
@@ -385,7 +385,7 @@ class Sim(Handle, analysis.Analyses):
         stand in the order of a recorder's pair too: output(place, "bit_speed")."""
         if isinstance(quantity, (Place, Id)):
             quantity, place = place, quantity
-        asked, value = Output(as_place(place, self._parts), output_quantity(quantity), 0), c_double()
+        asked, value = quantity if isinstance(quantity, Output) else output_of((place, quantity), self._parts), c_double()
         self._check(_lib.dmb_output_check(self._handle, byref(asked), 1))
         self._told(_lib.dmb_query_output(self._handle, byref(asked), byref(value)), _lib.dmb_query_output)
         return value.value
@@ -420,7 +420,7 @@ class Sim(Handle, analysis.Analyses):
         return profile(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, per_pipe)
 
     @mirrors("dmb_analysis_state_space")
-    def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[ResponseOutput] = (),
+    def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[Any] = (),
                     options: StateSpaceOptions | None = None, modes: analysis.Modes | None = None,
                     mode_list: Sequence[int] | None = None, **fields: Any) -> StateSpace:
         """The linearised scene from every Input to every Output as A, B, C, D; with modes reduced to these, or to those of

@@ -9,11 +9,12 @@ from ._handle import Handle
 from ._keep import as_id, as_place, mirrors
 from ._library import lib as _lib
 from ._optional import need
-from ._structs import Excitation, ResponseOutput, Row, StateSpaceInfo, StateSpaceOptions
+from ._structs import Excitation, Row, StateSpaceInfo, StateSpaceOptions
 from .enums import (ARRAY_ACCELERATION, ARRAY_MULTIPLIER, ARRAY_POSITION, ARRAY_QUATERNION, ARRAY_RESIDUAL, ARRAY_VELOCITY,
                     FRAME_WORLD, MATRIX_A, MATRIX_COORDINATES, MATRIX_DAMPING, MATRIX_JACOBIAN, MATRIX_MASS,
                     MATRIX_STIFFNESS, STATE_REDUCED)
 from ._values import whole
+from .outputs import outputs_of
 
 if TYPE_CHECKING:
     from .analysis import Modes
@@ -25,14 +26,14 @@ class StateSpace(Handle):
     Sim.state_space."""
     _kind = "state_space"
 
-    def __init__(self, sim: Sim, inputs: Sequence[Excitation], outputs: Sequence[ResponseOutput], options: StateSpaceOptions,
+    def __init__(self, sim: Sim, inputs: Sequence[Excitation], outputs: Sequence[Any], options: StateSpaceOptions,
                  modes: Modes | None, mode_list: Sequence[int] | None) -> None:
         self._handle = c_void_p()
         if modes is not None:
             options.form, options.modes = STATE_REDUCED, modes._handle
             if mode_list is not None:
                 options.mode_list, options.mode_count = (c_int32 * len(mode_list))(*mode_list), len(mode_list)
-        given, asked = (Excitation * len(inputs))(*inputs), (ResponseOutput * len(outputs))(*outputs)
+        given, asked = (Excitation * len(inputs))(*inputs), outputs_of(outputs, sim._parts, "state space")
         sim._check(sim._long(_lib.dmb_analysis_state_space, byref(options), given, len(inputs), asked, len(outputs),
                              byref(self._handle)))
         self.info: StateSpaceInfo = StateSpaceInfo.blank()

@@ -6,12 +6,12 @@ from ctypes import byref, c_double, c_void_p
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
-from ._keep import as_place, mirrors
+from ._keep import mirrors
 from ._library import lib as _lib
 from ._parts import index_of
-from ._structs import Output, WindowOptions, WindowResult
-from ._values import reals, refuse_type
-from .outputs import output_quantity
+from ._structs import WindowOptions, WindowResult
+from ._values import reals
+from .outputs import outputs_of
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -24,11 +24,7 @@ class Window(Handle):
     def __init__(self, sim: Sim, outputs: Sequence[Any], options: WindowOptions, levels: Sequence[float] | None) -> None:
         self.sim, self._handle = sim, c_void_p()
         self._count = len(outputs)
-        for number, one in enumerate(outputs):
-            if not isinstance(one, (tuple, list)) or len(one) != 2:
-                refuse_type(f"window output {number}", "output", one, 'be a pair (place, "bit_speed")')
-        asked = (Output * len(outputs))(*[Output(as_place(place, sim._parts), output_quantity(quantity), 0)
-                                            for place, quantity in outputs])
+        asked = outputs_of(outputs, sim._parts, "window")
         if levels is not None:
             self._levels = (c_double * self._count)(*reals(levels, "window", "levels", self._count))
             options.levels = self._levels

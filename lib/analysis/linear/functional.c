@@ -190,57 +190,57 @@ void dmb_functional_of_answer(dmb_linear *linear, dmb_answer *answer, const void
     dmb_functional_turn_frames(linear, out);
 }
 
-static double of_motion(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_motion(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_motion motion = dmb_motion_default();
     motion.frame = o->frame;
     *status = dmb_answer_motion(sim, o->place, &motion);
-    return o->kind == DMB_RESPONSE_VELOCITY ? motion.velocity[o->component] : motion.acceleration[o->component];
+    return o->kind == DMB_ASKED_VELOCITY ? motion.velocity[o->component] : motion.acceleration[o->component];
 }
 
-static double of_section(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_section(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_section section = dmb_section_default();
     *status = dmb_answer_section(sim, o->place, &section);
-    return o->kind == DMB_RESPONSE_SECTION_FORCE ? section.force[o->component] : section.strain[o->component];
+    return o->kind == DMB_ASKED_SECTION_FORCE ? section.force[o->component] : section.strain[o->component];
 }
 
-static double of_contact(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_contact(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_contact contact = dmb_contact_default();
     *status = dmb_answer_contact(sim, o->place.pipe, &contact);
     return o->component == DMB_Z ? contact.normal_force : contact.friction[o->component == DMB_Y];
 }
 
-static double of_drive(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_drive(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_drive_state state = dmb_drive_state_default();
     *status = dmb_answer_drive(sim, o->place.part, &state);
     return state.force;
 }
 
-static double of_support(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_support(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     double reaction[6] = {0.0};
     *status = dmb_answer_reaction(sim, o->place.part, reaction);
     return reaction[o->component];
 }
 
-static double of_joint(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_joint(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_joint_state state = dmb_joint_state_default();
     state.frame = o->frame;
     *status = dmb_answer_joint(sim, o->place.part, &state);
     switch (o->kind) {
-    case DMB_RESPONSE_JOINT_POSITION: return state.position[o->component];
-    case DMB_RESPONSE_JOINT_SPEED: return state.speed[o->component];
-    case DMB_RESPONSE_JOINT_ACCELERATION: return state.acceleration[o->component];
-    case DMB_RESPONSE_JOINT_REACTION: return state.reaction[o->component];
+    case DMB_ASKED_JOINT_POSITION: return state.position[o->component];
+    case DMB_ASKED_JOINT_SPEED: return state.speed[o->component];
+    case DMB_ASKED_JOINT_ACCELERATION: return state.acceleration[o->component];
+    case DMB_ASKED_JOINT_REACTION: return state.reaction[o->component];
     default: return state.action[o->component];
     }
 }
 
-static double of_multiplier(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_multiplier(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     double multipliers[6] = {0.0};
     uint32_t count = 0;
@@ -249,14 +249,14 @@ static double of_multiplier(const dmb_sim *sim, const dmb_response_output *o, in
     return multipliers[o->component];
 }
 
-static double of_bit(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_bit(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     dmb_bit_state state = dmb_bit_state_default();
     *status = dmb_answer_bit(sim, o->place.part, &state);
     return o->component == DMB_X ? state.weight : state.torque;
 }
 
-static double of_output(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
+static double of_output(const dmb_sim *sim, const dmb_asked_output *o, int32_t *status)
 {
     const dmb_output output = {o->place, o->component, 0};
     double value = 0.0;
@@ -264,19 +264,19 @@ static double of_output(const dmb_sim *sim, const dmb_response_output *o, int32_
     return value;
 }
 
-double dmb_answer_of(const dmb_sim *sim, const dmb_response_output *output, int32_t *status)
+double dmb_answer_of(const dmb_sim *sim, const dmb_asked_output *output, int32_t *status)
 {
     switch (output->kind) {
-    case DMB_RESPONSE_VELOCITY:
-    case DMB_RESPONSE_ACCELERATION: return of_motion(sim, output, status);
-    case DMB_RESPONSE_SECTION_FORCE:
-    case DMB_RESPONSE_SECTION_STRAIN: return of_section(sim, output, status);
-    case DMB_RESPONSE_CONTACT: return of_contact(sim, output, status);
-    case DMB_RESPONSE_DRIVE: return of_drive(sim, output, status);
-    case DMB_RESPONSE_REACTION: return of_support(sim, output, status);
-    case DMB_RESPONSE_MULTIPLIER: return of_multiplier(sim, output, status);
-    case DMB_RESPONSE_BIT: return of_bit(sim, output, status);
-    case DMB_RESPONSE_OUTPUT: return of_output(sim, output, status);
+    case DMB_ASKED_VELOCITY:
+    case DMB_ASKED_ACCELERATION: return of_motion(sim, output, status);
+    case DMB_ASKED_SECTION_FORCE:
+    case DMB_ASKED_SECTION_STRAIN: return of_section(sim, output, status);
+    case DMB_ASKED_CONTACT: return of_contact(sim, output, status);
+    case DMB_ASKED_DRIVE: return of_drive(sim, output, status);
+    case DMB_ASKED_REACTION: return of_support(sim, output, status);
+    case DMB_ASKED_MULTIPLIER: return of_multiplier(sim, output, status);
+    case DMB_ASKED_BIT: return of_bit(sim, output, status);
+    case DMB_ASKED_OUTPUT: return of_output(sim, output, status);
     default: return of_joint(sim, output, status);
     }
 }

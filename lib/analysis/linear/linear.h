@@ -277,9 +277,38 @@ void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_func
 
 /* Present results of queries, for outputs of a response. */
 
-/* The value of an output of any kind but DMB_RESPONSE_DISPLACEMENT, which depends on its reference. *status: errors of
+/* Kinds of motions and forces that outputs of linear analyses are. */
+enum {
+    DMB_ASKED_DISPLACEMENT = 0, /* of `place`, components along the axes of `frame` */
+    DMB_ASKED_VELOCITY = 1,
+    DMB_ASKED_ACCELERATION = 2,
+    DMB_ASKED_SECTION_FORCE = 3,
+    DMB_ASKED_SECTION_STRAIN = 4,
+    DMB_ASKED_CONTACT = 5, /* contact point place.pipe: DMB_X, DMB_Y friction, DMB_Z normal force */
+    DMB_ASKED_DRIVE = 6,
+    DMB_ASKED_REACTION = 7,
+    DMB_ASKED_JOINT_POSITION = 8,
+    DMB_ASKED_JOINT_SPEED = 9,
+    DMB_ASKED_JOINT_ACCELERATION = 10,
+    DMB_ASKED_JOINT_REACTION = 11,
+    DMB_ASKED_JOINT_ACTION = 12,
+    DMB_ASKED_MULTIPLIER = 13, /* number `component` */
+    DMB_ASKED_BIT = 14,        /* DMB_X weight, DMB_RX torque by the rock law */
+    DMB_ASKED_OUTPUT = 15      /* `component` is its DMB_OUTPUT_...: a smooth function about its place */
+};
+
+/* An output by the motion or force that it is. */
+typedef struct dmb_asked_output {
+    int32_t kind; /* DMB_ASKED_... */
+    int32_t component;
+    int32_t frame; /* DMB_FRAME_... */
+    int32_t reserved;
+    dmb_place place;
+} dmb_asked_output;
+
+/* The value of an output of any kind but DMB_ASKED_DISPLACEMENT, which depends on its reference. *status: errors of
  * the query. */
-double dmb_answer_of(const dmb_sim *sim, const dmb_response_output *output, int32_t *status);
+double dmb_answer_of(const dmb_sim *sim, const dmb_asked_output *output, int32_t *status);
 
 /* ---- Dynamic stiffness ------------------------------------------------------------------------------------------- */
 

@@ -97,13 +97,11 @@ static int32_t read_inputs(dmb_response_work *w, const dmb_excitation *excitatio
     return status;
 }
 
-static int32_t read_outputs(dmb_response_work *w, const dmb_response_output *outputs)
+static int32_t read_outputs(dmb_response_work *w, const dmb_output *outputs)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
-        dmb_response_output output;
-        int32_t status = dmb_output_get(outputs, i, &w->sim->message, &output);
-        if (status < 0) return status;
-        status = dmb_linear_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
+        const int32_t status =
+            dmb_linear_output_of(w->linear, &w->options, outputs + i, i, &w->sim->message, w->outputs + i);
         if (status < 0) return status;
         w->needs_forces |= w->outputs[i].support_count > 0 || w->outputs[i].cluster != DMB_NONE;
     }
@@ -144,7 +142,7 @@ static int32_t refine(dmb_response_work *w, dmb_response *response)
     return status >= 0 && all == before ? DMB_NOTE_STOPPED : status;
 }
 
-static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, const dmb_response_output *outputs,
+static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, const dmb_output *outputs,
                        dmb_response *response)
 {
     int32_t status = allocate_memory(w);
@@ -153,6 +151,7 @@ static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, 
         response->undamped = !(w->options.structural_damping > 0.0) && dmb_linear_is_undamped(w->linear, w->x.re);
     if (status >= 0) status = read_inputs(w, excitations, response);
     if (status >= 0) status = read_outputs(w, outputs);
+    if (status >= 0) memcpy(response->output, outputs, w->output_count * sizeof *outputs);
     if (status >= 0) status = solve_grid(w, response);
     for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) {
         dmb_progress_at(w->sim, (1.0 + k) / (1.0 + w->options.refinement));
@@ -188,7 +187,7 @@ static int32_t check_counts(dmb_sim *sim, uint32_t excitations, uint32_t outputs
 }
 
 static int32_t analyse(dmb_response_work *w, const dmb_response_options *options, const dmb_excitation *excitations,
-                       const dmb_response_output *outputs, dmb_response **response)
+                       const dmb_output *outputs, dmb_response **response)
 {
     dmb_sim *sim = w->sim;
     int32_t status = dmb_response_options_get(options, &sim->message, &w->options);
@@ -209,7 +208,7 @@ static int32_t analyse(dmb_response_work *w, const dmb_response_options *options
 }
 
 int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_excitation *excitations,
-                              uint32_t excitation_count, const dmb_response_output *outputs, uint32_t output_count,
+                              uint32_t excitation_count, const dmb_output *outputs, uint32_t output_count,
                               dmb_response **response)
 {
     if (response == NULL) return dmb_sim_failed(sim, "response", DMB_ERR_NULL);

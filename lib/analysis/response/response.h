@@ -14,9 +14,10 @@ struct dmb_response {
     int32_t reserved;
     dmb_allocator allocator;
     double *amplitude, *phase; /* shape (excitations) */
+    dmb_output *output;        /* shape (outputs) */
     double *frequency;         /* [Hz] shape (points) */
     double *value;             /* real and imaginary parts, shape (points, excitations, outputs, 2) */
-    void *block;               /* amplitude, phase */
+    void *block;               /* amplitude, phase, output */
     size_t block_size;
     void *table; /* frequency, value */
     size_t table_size;
@@ -46,7 +47,6 @@ int32_t dmb_response_options_get(const dmb_response_options *given, dmb_message 
 /* Struct i of the caller's array, with the item size of the first one; checks the fields that do not depend on the
  * scene. */
 int32_t dmb_input_get(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out);
-int32_t dmb_output_get(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out);
 /* The same for a stepped sine, at a frequency that is checked too. */
 int32_t dmb_stepped_sine_options_get(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
                                      dmb_stepped_sine_options *out);
@@ -106,18 +106,20 @@ typedef struct dmb_linear_output {
 
 /* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:
  * those of the queries, DMB_ERR_UNSUPPORTED. */
-int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_response_output *output,
+int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
                              uint32_t index, dmb_message *message, dmb_linear_output *out);
 
-/* A output as an output of another kind, or of kind DMB_RESPONSE_OUTPUT still where it is a smooth answer about its
- * place; and the bit whose load it has in it (DMB_NONE). On refusal `why`. Errors: DMB_ERR_UNSUPPORTED, _ID. */
-int32_t dmb_response_output_of(const dmb_sim *sim, const dmb_response_output *output, dmb_response_output *out,
-                               uint32_t *bit, const char **why);
+/* The motion or force that an output of a linear analysis is; and the bit whose load it has in it (DMB_NONE). On
+ * refusal `why`. Errors: DMB_ERR_UNSUPPORTED, _ID. */
+int32_t dmb_asked_output_of(const dmb_sim *sim, const dmb_output *output, dmb_asked_output *out, uint32_t *bit,
+                            const char **why);
+/* The vibration of a place that DMB_OUTPUT_VIBRATION .. names; 0 for any other output, *out as DMB_ASKED_OUTPUT. */
+int32_t dmb_asked_vibration(const dmb_output *output, dmb_asked_output *out);
 
 /* The output for displacements x caused by forces f of the input (0 for prescribed displacements), shapes (rows). */
-dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_linear_output *output,
-                                             const dmb_linear_excitation *input, dmb_complex_array x,
-                                             dmb_complex_array f);
+dmb_complex_number dmb_linear_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_linear_output *output,
+                                           const dmb_linear_excitation *input, dmb_complex_array x,
+                                           dmb_complex_array f);
 
 /* Points of a response (response_points.c). */
 

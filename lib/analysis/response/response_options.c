@@ -9,8 +9,6 @@
 
 DMB_DEFINE_INIT(dmb_excitation, 56, {.kind = DMB_EXCITATION_FORCE, .amplitude = 1.0})
 
-DMB_DEFINE_INIT(dmb_response_output, 40, {.kind = DMB_RESPONSE_DISPLACEMENT})
-
 DMB_DEFINE_INIT(dmb_response_options, 72,
                 {
                     .points = 1000,
@@ -114,7 +112,7 @@ double dmb_response_grid(const dmb_response_options *o, uint32_t i)
     return o->frequency_low + x * (o->frequency_high - o->frequency_low);
 }
 
-/* ---- Inputs and outputs ------------------------------------------------------------------------------------------ */
+/* ---- Excitations ------------------------------------------------------------------------------------------------- */
 
 static const void *item_of(const void *items, uint32_t stride, uint32_t i, uint32_t *size)
 {
@@ -139,28 +137,5 @@ int32_t dmb_input_get(const dmb_excitation *excitations, uint32_t i, dmb_message
     dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     dmb_check_within(&check, "amplitude", out->amplitude, -1e30, 1e30);
     dmb_check_within(&check, "phase", out->phase, -1e9, 1e9);
-    return check.status;
-}
-
-int32_t dmb_output_get(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out)
-{
-    dmb_check check = dmb_check_of(message, "output", i);
-    uint32_t size;
-    const void *item = item_of(outputs, outputs->struct_size, i, &size);
-    *out = dmb_response_output_default();
-    if (size != outputs->struct_size || dmb_response_output_read(out, item) < 0) {
-        dmb_message_set(message, "output %u: struct_size is not one of this library, or not that of the first", i);
-        return DMB_ERR_STRUCT_SIZE;
-    }
-    dmb_check_choice(&check, "kind", out->kind, DMB_RESPONSE_DISPLACEMENT, DMB_RESPONSE_OUTPUT);
-    if (out->kind != DMB_RESPONSE_OUTPUT)
-        dmb_check_choice(&check, "component", out->component, DMB_X,
-                         out->kind == DMB_RESPONSE_CONTACT ? DMB_Z : DMB_RZ);
-    else if (dmb_output_name(out->component, NULL) == NULL)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "a output that dmb_output_name knows");
-    if (out->kind == DMB_RESPONSE_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,
-                       "DMB_X (weight on the bit) or DMB_RX (torque)");
-    dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     return check.status;
 }

@@ -20,7 +20,8 @@ typedef struct request {
     dmb_linear *linear;
     dmb_sim *copy;
     const dmb_response_options *options;
-    const dmb_response_output *output;
+    const dmb_output *given;
+    const dmb_asked_output *output;
     dmb_linear_output *out;
     uint32_t index;
     dmb_message *message;
@@ -28,15 +29,13 @@ typedef struct request {
 
 static int32_t refuse(const request *r, int32_t status, const char *why)
 {
-    dmb_message_set(r->message, "output %u: %s", r->index, why);
+    dmb_output_refuse(r->copy->model, r->given, r->index, why, r->message);
     return status;
 }
 
 static int32_t refuse_place(const request *r, int32_t status)
 {
-    const dmb_place place = r->output->place;
-    dmb_message_set(r->message, "output %u: place, pipe %u at %g: %s", r->index, place.pipe, place.fraction,
-                    dmb_status_text(status));
+    dmb_output_explain(r->copy->model, r->given, r->index, status, r->message);
     return status;
 }
 
@@ -50,7 +49,7 @@ static double answer(const dmb_sim *copy, const void *what)
 
 static int32_t of_motion(const request *r)
 {
-    const dmb_response_output *o = r->output;
+    const dmb_asked_output *o = r->output;
     const int32_t status = dmb_functional_of_motion(r->copy, o->place, o->frame, o->component, &r->out->functional);
     r->out->rate = o->kind;
     return status < 0 ? refuse_place(r, status) : DMB_OK;
@@ -62,7 +61,7 @@ static int32_t of_section(const request *r)
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status >= 0) status = dmb_functional_around(r->copy, r->output->place, &r->out->functional);
     if (status < 0) return refuse_place(r, status);
-    r->out->elastic = r->output->kind != DMB_RESPONSE_SECTION_STRAIN;
+    r->out->elastic = r->output->kind != DMB_ASKED_SECTION_STRAIN;
     dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
     return DMB_OK;
 }
@@ -231,7 +230,8 @@ static int32_t of_multiplier(const request *r)
 {
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
-    if (status < 0) return refuse(r, status, "component is no row of a joint, coupling, constraint or joint drive");
+    if (status < 0)
+        return refuse(r, status, "place.part must be a joint, coupling, constraint or joint drive with that row");
     set_multiplier(r, dmb_constraint_of_part(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
     return DMB_OK;
 }
@@ -305,14 +305,14 @@ static int32_t of_joint(const request *r)
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "place.part names no joint of this model");
-    r->out->elastic = r->output->kind > DMB_RESPONSE_JOINT_ACCELERATION;
-    if (r->output->kind == DMB_RESPONSE_JOINT_REACTION)
+    r->out->elastic = r->output->kind > DMB_ASKED_JOINT_ACCELERATION;
+    if (r->output->kind == DMB_ASKED_JOINT_REACTION)
         reaction_of_joint(r, joint_of(r));
-    else if (r->output->kind == DMB_RESPONSE_JOINT_ACTION)
+    else if (r->output->kind == DMB_ASKED_JOINT_ACTION)
         law_of_joint(r, joint_of(r));
     else
         coordinate(r, joint_of(r), r->output->component, &r->out->functional);
-    if (!r->out->elastic) r->out->rate = r->output->kind - DMB_RESPONSE_JOINT_POSITION;
+    if (!r->out->elastic) r->out->rate = r->output->kind - DMB_ASKED_JOINT_POSITION;
     return DMB_OK;
 }
 
@@ -392,41 +392,31 @@ static int32_t of_bit(const request *r)
 static int32_t make(const request *r)
 {
     switch (r->output->kind) {
-    case DMB_RESPONSE_DISPLACEMENT:
-    case DMB_RESPONSE_VELOCITY:
-    case DMB_RESPONSE_ACCELERATION: return of_motion(r);
-    case DMB_RESPONSE_SECTION_FORCE:
-    case DMB_RESPONSE_SECTION_STRAIN:
-    case DMB_RESPONSE_OUTPUT: return of_section(r); /* loads of the section at the rig end */
-    case DMB_RESPONSE_CONTACT: return of_contact(r);
-    case DMB_RESPONSE_DRIVE: return of_drive(r);
-    case DMB_RESPONSE_REACTION: return of_support(r);
-    case DMB_RESPONSE_MULTIPLIER: return of_multiplier(r);
-    case DMB_RESPONSE_BIT: return of_bit(r);
+    case DMB_ASKED_DISPLACEMENT:
+    case DMB_ASKED_VELOCITY:
+    case DMB_ASKED_ACCELERATION: return of_motion(r);
+    case DMB_ASKED_SECTION_FORCE:
+    case DMB_ASKED_SECTION_STRAIN:
+    case DMB_ASKED_OUTPUT: return of_section(r); /* loads of the section at the rig end */
+    case DMB_ASKED_CONTACT: return of_contact(r);
+    case DMB_ASKED_DRIVE: return of_drive(r);
+    case DMB_ASKED_REACTION: return of_support(r);
+    case DMB_ASKED_MULTIPLIER: return of_multiplier(r);
+    case DMB_ASKED_BIT: return of_bit(r);
     default: return of_joint(r);
     }
 }
 
-static int32_t of_output(const request *r)
-{
-    const char *why = "";
-    dmb_response_output meant;
-    request part = *r;
-    const int32_t status = dmb_response_output_of(r->copy, r->output, &meant, &r->out->bit, &why);
-    if (status < 0) {
-        dmb_message_set(r->message, "output %u: output %s: %s", r->index, dmb_output_name(r->output->component, NULL),
-                        why); /* it was looked up with the output */
-        return status;
-    }
-    part.output = &meant;
-    return make(&part);
-}
-
-int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_response_output *output,
+int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
                              uint32_t index, dmb_message *message, dmb_linear_output *out)
 {
-    const request r = {linear, linear->work, options, output, out, index, message};
+    const char *why = "";
+    dmb_asked_output asked;
+    const request r = {linear, linear->work, options, output, &asked, out, index, message};
     memset(out, 0, sizeof *out);
     out->cluster = out->drive = out->bit = DMB_NONE;
-    return output->kind == DMB_RESPONSE_OUTPUT ? of_output(&r) : make(&r);
+    int32_t status = dmb_output_known(output, index, message);
+    if (status >= 0) status = dmb_asked_output_of(linear->work, output, &asked, &out->bit, &why);
+    if (status < 0 && why[0] != '\0') dmb_output_refuse(linear->work->model, output, index, why, message);
+    return status < 0 ? status : make(&r);
 }

@@ -59,7 +59,7 @@ static void write_values(dmb_response_work *w, dmb_response *response, uint32_t 
     (void)dmb_linear_change_of(&w->turned, w->linear, s, w->x.re, w->x.im);
     for (uint32_t k = 0; k < w->output_count; k++) {
         const dmb_complex_number found =
-            dmb_response_output_value(&w->stiffness, w->outputs + k, w->excitations + excitation, w->x, w->f);
+            dmb_linear_output_value(&w->stiffness, w->outputs + k, w->excitations + excitation, w->x, w->f);
         value[2 * (size_t)k] = found.re;
         value[2 * (size_t)k + 1] = found.im;
     }

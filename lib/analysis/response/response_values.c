@@ -19,12 +19,13 @@ dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitati
     response->excitations = excitations;
     response->outputs = outputs;
     response->allocator = *allocator;
-    response->block_size = 2 * (size_t)excitations * sizeof(double);
+    response->block_size = 2 * (size_t)excitations * sizeof(double) + outputs * sizeof(dmb_output);
     response->block = dmb_allocate(allocator, response->block_size);
     if (response->block == NULL) dmb_response_destroy(&response);
     if (response == NULL) return NULL;
     response->amplitude = response->block;
     response->phase = response->amplitude + excitations;
+    response->output = (dmb_output *)(void *)(response->phase + excitations);
     return response;
 }
 

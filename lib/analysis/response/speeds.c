@@ -42,7 +42,7 @@ typedef struct speeds_run {
     dmb_sim *sim;
     dmb_speeds_options options;
     const dmb_order *orders;
-    const dmb_response_output *outputs;
+    const dmb_output *outputs;
     const double *limits;
     uint32_t order_count, output_count, points; /* points: of all curves */
     dmb_speeds_curve *curves;                   /* shape (order_count) */
@@ -328,7 +328,7 @@ static int32_t analyse(speeds_run *r, const dmb_speeds_options *options, dmb_spe
 }
 
 int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                            uint32_t order_count, const dmb_response_output *outputs, const double *limits,
+                            uint32_t order_count, const dmb_output *outputs, const double *limits,
                             uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
 {
     if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)

@@ -16,8 +16,9 @@
 /* ---- Outputs, asked at one instant ------------------------------------------------------------------------------- */
 
 typedef struct sine_output {
-    dmb_response_output output;
-    double start[9]; /* [-] axes of the place at the call, columns, world */
+    dmb_output output;
+    dmb_asked_output asked; /* of a vibration; else of kind DMB_ASKED_OUTPUT */
+    double start[9];        /* [-] axes of the place at the call, columns, world */
 } sine_output;
 
 static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
@@ -40,7 +41,7 @@ static void rotation_since(const double start[9], const double now[9], double ou
 
 static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
-    const int32_t c = o->output.component;
+    const int32_t c = o->asked.component;
     dmb_pose pose = dmb_pose_default();
     double angle = 0.0, world[3], out[3];
     if (c == DMB_RX) {
@@ -53,14 +54,14 @@ static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *st
         dmb_vec3_copy(pose.displacement, world);
     else
         rotation_since(o->start, pose.rotation, world);
-    part_along(o->start, o->output.frame, world, out);
+    part_along(o->start, o->asked.frame, world, out);
     return out[c % 3];
 }
 
 static double value_of(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
-    return o->output.kind == DMB_RESPONSE_DISPLACEMENT ? displacement(sim, o, status)
-                                                       : dmb_answer_of(sim, &o->output, status);
+    return o->asked.kind == DMB_ASKED_DISPLACEMENT ? displacement(sim, o, status)
+                                                   : dmb_answer_of(sim, &o->asked, status);
 }
 
 /* Takes the pose of the call. Errors: those of the queries. */
@@ -68,7 +69,7 @@ static int32_t begin_output(const dmb_sim *sim, sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
-    if (output->output.kind == DMB_RESPONSE_DISPLACEMENT) status = dmb_answer_pose(sim, output->output.place, &pose);
+    if (output->asked.kind == DMB_ASKED_DISPLACEMENT) status = dmb_answer_pose(sim, output->output.place, &pose);
     memcpy(output->start, pose.rotation, sizeof output->start);
     if (status >= 0) (void)value_of(sim, output, &status);
     return status;
@@ -145,7 +146,7 @@ static void begin_window(sine_run *r)
 
 static double drift_of(const sine_run *r, uint32_t o)
 {
-    if (r->output[o].output.kind != DMB_RESPONSE_DISPLACEMENT) return 0.0;
+    if (r->output[o].asked.kind != DMB_ASKED_DISPLACEMENT) return 0.0;
     return (sample_of(r->sim, r->output + o) - r->first[o]) / (r->step * steps_of(r));
 }
 
@@ -246,23 +247,24 @@ static int32_t allocate_memory(sine_run *r)
     return DMB_OK;
 }
 
-static int32_t read_outputs(sine_run *r, const dmb_response_output *outputs)
+static int32_t read_outputs(sine_run *r, const dmb_output *outputs)
 {
     for (uint32_t i = 0; i < r->outputs; i++) {
-        dmb_response_output *output = &r->output[i].output;
-        int32_t status = dmb_output_get(outputs, i, &r->sim->message, output);
+        sine_output *output = r->output + i;
+        int32_t status = dmb_output_known(outputs + i, i, &r->sim->message);
         if (status < 0) return status;
-        status = begin_output(r->sim, r->output + i);
+        output->output = outputs[i];
+        (void)dmb_asked_vibration(&output->output, &output->asked);
+        status = begin_output(r->sim, output);
         if (status < 0) {
-            dmb_message_set(&r->sim->message, "output %u: place, pipe %u at %g: %s", i, output->place.pipe,
-                            output->place.fraction, dmb_status_text(status));
+            dmb_output_explain(r->sim->model, &output->output, i, status, &r->sim->message);
             return status;
         }
     }
     return DMB_OK;
 }
 
-static int32_t shake(sine_run *r, const dmb_response_output *outputs)
+static int32_t shake(sine_run *r, const dmb_output *outputs)
 {
     int32_t status = allocate_memory(r);
     if (status >= 0) status = read_outputs(r, outputs);
@@ -272,7 +274,7 @@ static int32_t shake(sine_run *r, const dmb_response_output *outputs)
 }
 
 static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_options *options,
-                       const dmb_response_output *outputs, double *amplitudes, dmb_stepped_sine_report *report)
+                       const dmb_output *outputs, double *amplitudes, dmb_stepped_sine_report *report)
 {
     dmb_sim *sim = r->sim;
     r->report = dmb_stepped_sine_report_default();
@@ -295,7 +297,7 @@ static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_opt
 }
 
 int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                                  const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
+                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                   dmb_stepped_sine_report *report)
 {
     if (sim == NULL || outputs == NULL || amplitudes == NULL) return dmb_sim_failed(sim, "stepped sine", DMB_ERR_NULL);

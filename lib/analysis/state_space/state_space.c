@@ -229,7 +229,7 @@ static void write_info(dmb_space_work *w)
     info->largest_force = w->linear->largest_force;
 }
 
-static int32_t run(dmb_space_work *w, const dmb_excitation *inputs, const dmb_response_output *outputs)
+static int32_t run(dmb_space_work *w, const dmb_excitation *inputs, const dmb_output *outputs)
 {
     int32_t status = linearise(w);
     if (status >= 0) status = allocate_work(w);
@@ -262,7 +262,7 @@ static void release(dmb_space_work *w)
 }
 
 static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options, const dmb_excitation *inputs,
-                       const dmb_response_output *outputs, dmb_state_space **space)
+                       const dmb_output *outputs, dmb_state_space **space)
 {
     dmb_sim *sim = w->sim;
     int32_t status = read_options(sim, options, w->input_count, w->output_count, &w->options);
@@ -287,7 +287,7 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
 }
 
 int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_excitation *inputs,
-                                 uint32_t input_count, const dmb_response_output *outputs, uint32_t output_count,
+                                 uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                  dmb_state_space **space)
 {
     if (space == NULL) return dmb_sim_failed(sim, "state space", DMB_ERR_NULL);

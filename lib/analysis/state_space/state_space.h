@@ -82,7 +82,7 @@ typedef struct dmb_space_work {
 } dmb_space_work;
 
 /* Linear functions of the outputs, from those of a response. */
-int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_response_output *outputs);
+int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_output *outputs);
 /* Computes the basis in space->shapes, with its count. */
 int32_t dmb_space_make_basis(dmb_space_work *w);
 /* Largest number of shapes in a basis. */

@@ -265,7 +265,7 @@ static double fraction_of_row(dmb_space_work *w, const dmb_linear_output *output
 {
     const dmb_linear_excitation none = {.drive = DMB_NONE, .bit = DMB_NONE};
     force.re[row] = -1.0;
-    const double value = dmb_response_output_value(&w->stiffness, output, &none, zeros, force).re;
+    const double value = dmb_linear_output_value(&w->stiffness, output, &none, zeros, force).re;
     force.re[row] = 0.0;
     return value;
 }
@@ -322,7 +322,7 @@ static void read_output(dmb_space_work *w, const dmb_linear_output *output, dmb_
     for (uint32_t r = 0; r < rows; r++) out->accelerates |= out->acceleration[r] != 0.0;
 }
 
-int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_response_output *outputs)
+int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_output *outputs)
 {
     dmb_response_options options = dmb_response_options_default();
     options.contact = w->options.contact;
@@ -330,9 +330,7 @@ int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_response_output *out
     options.contact_gap = w->options.contact_gap;
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_linear_output taken;
-        dmb_response_output output;
-        int32_t status = dmb_output_get(outputs, i, &w->sim->message, &output);
-        if (status >= 0) status = dmb_linear_output_of(w->linear, &options, &output, i, &w->sim->message, &taken);
+        const int32_t status = dmb_linear_output_of(w->linear, &options, outputs + i, i, &w->sim->message, &taken);
         if (status < 0) return status;
         read_output(w, &taken, w->outputs + i);
     }

@@ -56,7 +56,6 @@
     X(motor, 32)                \
     X(operation, 40)            \
     X(order, 72)                \
-    X(response_output, 40)      \
     X(parameter, 56)            \
     X(path_options, 136)        \
     X(path_point, 56)           \

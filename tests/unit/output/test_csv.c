@@ -101,7 +101,7 @@ static void numbers_come_back(void **state)
     static char text[1 << 16];
     const dmb_recorder r = recorder();
     char *name = temporary(), *at;
-    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, name), DMB_OK);
     read_back(name, text, sizeof text);
     at = strchr(text, '\n');
     assert_non_null(at);
@@ -123,9 +123,9 @@ static void header_names_and_units(void **state)
     dmb_recorder r = recorder();
     char *name = temporary();
     r.row_count = 0;
-    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, name), DMB_OK);
     read_back(name, text, sizeof text);
-    assert_string_equal(text, "time [s],velocity_z string 0 pipe 99 at 0.5 [m/s],drive_force drive 2 [N or N m],"
+    assert_string_equal(text, "time [s],velocity_z of string 0 pipe 99 at 0.5 [m/s],drive_force of drive 2 [N or N m],"
                               "energy_error [-]\n");
 }
 
@@ -135,7 +135,7 @@ static void header_has_a_word_for_each_kind(void **state)
     (void)state;
     static char text[1 << 16];
     const char *const words[32] = {
-        [DMB_PART_TIME_FUNCTION] = "time_function",
+        [DMB_PART_TIME_FUNCTION] = "time function",
         [DMB_PART_WALL] = "wall",
         [DMB_PART_STRING] = "string",
         [DMB_PART_BODY] = "body",
@@ -158,9 +158,9 @@ static void header_has_a_word_for_each_kind(void **state)
         const dmb_id part = {kind << 24 | 7u, 1};
         r.row_count = 0;
         outputs[1].place.part = part;
-        assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+        assert_int_equal(dmb_recorder_write_csv(&r, NULL, name), DMB_OK);
         read_back(name, text, sizeof text);
-        snprintf(expected, sizeof expected, ",drive_force %s 7 ", words[kind] != NULL ? words[kind] : "part");
+        snprintf(expected, sizeof expected, ",drive_force of %s 7 ", words[kind] != NULL ? words[kind] : "part");
         if (kind != DMB_PART_STRING) assert_non_null(strstr(text, expected));
     }
 }
@@ -174,11 +174,11 @@ static void locale_does_not_matter(void **state)
     const dmb_recorder r = recorder();
     char *name = temporary();
     int set = 0;
-    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, name), DMB_OK);
     read_back(name, plain, sizeof plain);
     for (size_t i = 0; i < sizeof names / sizeof names[0] && !set; i++) set = setlocale(LC_ALL, names[i]) != NULL;
     name = temporary();
-    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, name), DMB_OK);
     read_back(name, foreign, sizeof foreign);
     setlocale(LC_ALL, "C");
     assert_string_equal(plain, foreign);
@@ -189,37 +189,37 @@ static void failures_are_told(void **state)
     (void)state;
     const dmb_recorder r = recorder();
     FILE *full = fopen("/dev/full", "wb");
-    assert_int_equal(dmb_recorder_write_csv(&r, "/nonexistent/folder/x.csv"), DMB_ERR_IO);
-    assert_int_equal(dmb_recorder_write_csv(&r, ""), DMB_ERR_IO);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "/nonexistent/folder/x.csv"), DMB_ERR_IO);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, ""), DMB_ERR_IO);
     if (full == NULL) return;
     fclose(full);
-    assert_int_equal(dmb_recorder_write_csv(&r, "/dev/full"), DMB_ERR_IO);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "/dev/full"), DMB_ERR_IO);
 }
 
 static void bad_recorders_are_refused(void **state)
 {
     (void)state;
     dmb_recorder r = recorder();
-    assert_int_equal(dmb_recorder_write_csv(NULL, "x"), DMB_ERR_NULL);
-    assert_int_equal(dmb_recorder_write_csv(&r, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(NULL, NULL, "x"), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, NULL), DMB_ERR_NULL);
     r.outputs = NULL;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_NULL);
     r = recorder(), r.table = NULL;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_NULL);
     r = recorder(), r.output_count = 0;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_VALUE);
     r = recorder(), r.output_count = 4097;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_VALUE);
     r = recorder(), r.row_count = ROWS + 1;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_VALUE);
     r = recorder(), r.capacity = UINT64_MAX;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_VALUE);
     r = recorder(), r.interval = -1.0;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_VALUE);
     r = recorder(), r.interval = (double)NAN;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_NOT_FINITE);
     r = recorder(), r.struct_size = 7;
-    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_STRUCT_SIZE);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL, "x"), DMB_ERR_STRUCT_SIZE);
 }
 
 int main(void)

@@ -104,7 +104,7 @@ static void recorders(void **state)
         if (status != wanted[what]) fail_msg("case %d: %s", what, dmb_status_name(status));
         assert_int_equal(r.row_count, rows);
         if (what < UNKNOWN) check_untouched(&c);
-        if (what < UNKNOWN) assert_int_equal(dmb_recorder_write_csv(&r, "/dev/null"), wanted[what]);
+        if (what < UNKNOWN) assert_int_equal(dmb_recorder_write_csv(&r, NULL, "/dev/null"), wanted[what]);
         rig_close(&c.s);
     }
 }
@@ -170,7 +170,7 @@ static void without_room(void **state)
     assert_int_equal(dmb_profile_recorder_take(&c.profiles, c.s.sim), DMB_NOTE_FULL);
     check_untouched(&c);
     assert_int_equal(dmb_profile_recorder_write_csv(&c.profiles, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_recorder_write_csv(&c.rows, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(&c.rows, NULL, NULL), DMB_ERR_NULL);
     rig_close(&c.s);
 }
 
@@ -193,8 +193,8 @@ static void unknown_names(void **state)
     open_subject(&c);
     c.outputs[0].quantity = 99;
     c.outputs[1].place.part = (dmb_id){200u << 24 | 4u, 1};
-    assert_int_equal(dmb_recorder_write_csv(&c.rows, path), DMB_OK);
-    assert_string_equal(text_of(path), "time [s],unknown string 0 pipe 0 at 0.5 [-],velocity_z part 4 [m/s]\n");
+    assert_int_equal(dmb_recorder_write_csv(&c.rows, NULL, path), DMB_OK);
+    assert_string_equal(text_of(path), "time [s],unknown of string 0 pipe 0 at 0.5 [-],velocity_z of part 4 [m/s]\n");
     c.quantities[0] = -1;
     assert_int_equal(dmb_profile_recorder_write_csv(&c.profiles, path), DMB_OK);
     assert_string_equal(text_of(path), "time [s],station,unknown [-],x [m]\n");

@@ -5,9 +5,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .._structs import Excitation, Order, ResponseOutput, Place
+from .._structs import Excitation, Order, Output, Place
 from ..enums import EXCITATION_ECCENTRICITY
 from ..model import Model, map_ids
+from ..outputs import output_of
 from ..sim import Sim
 from .divide import Divided
 from .failure import Failure
@@ -77,10 +78,9 @@ class Scene:
         """Of the response."""
         return [Excitation(**one) for one in self.analyses["response"]["excitation"]]
 
-    def response_outputs(self, analysis: str) -> list[ResponseOutput]:
+    def response_outputs(self, analysis: str) -> list[Output]:
         """Of the response or of the speeds."""
-        return [ResponseOutput(**{key: value for key, value in one.items() if key not in ("name", "unit", "limit")})
-                for one in self.analyses[analysis]["output"]]
+        return [output_of((one.get("place"), one["quantity"])) for one in self.analyses[analysis]["output"]]
 
     def output_names(self, analysis: str) -> list[str]:
         """Names of the outputs with their units."""
@@ -111,11 +111,10 @@ class Scene:
             outputs = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.outputs]
             analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses or name in ("static", "modes")}
-            for name, key, struct in (("response", "excitation", "response excitation"), ("speeds", "order", "response excitation"), ("response", "output", "output"),
-                                      ("speeds", "output", "output")):
+            for name, key in (("response", "excitation"), ("speeds", "order")):
                 if name in analyses:
                     kind = {"kind": int(EXCITATION_ECCENTRICITY)} if key == "order" else {}
-                    analyses[name][key] = [filled(struct, {**kind, **one}) for one in analyses[name][key]]
+                    analyses[name][key] = [filled("response excitation", {**kind, **one}) for one in analyses[name][key]]
             analyses = map_ids(analyses, lambda part: (part.index, bool(part)))
             failures = map_ids([vars(one) for one in scene.failures], lambda part: (part.index, bool(part)))
             return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.results, outputs, scene.pipes, analyses, scene.limits,

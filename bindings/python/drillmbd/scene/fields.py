@@ -215,19 +215,6 @@ DRIVE_PAIRS = ("curve", "gain_table")  # of speed and force
 OF_COMPONENT = ("gain", "integral_gain", "limit_low", "limit_high", "force_rate", "drag", "back_drag")
 
 
-def response_unit(kind: int, component: int) -> str:
-    """The unit of an output of a response."""
-    if kind == enums.RESPONSE_OUTPUT:
-        return output_unit(component)
-    about: dict[int, str] = {enums.RESPONSE_DISPLACEMENT: "m, rad", enums.RESPONSE_VELOCITY: "m/s, rad/s",
-             enums.RESPONSE_ACCELERATION: "m/s2, rad/s2", enums.RESPONSE_SECTION_FORCE: "N, N m",
-             enums.RESPONSE_SECTION_STRAIN: "-, rad/m", enums.RESPONSE_CONTACT: "N", enums.RESPONSE_REACTION: "N, N m",
-             enums.RESPONSE_JOINT_POSITION: "m, rad", enums.RESPONSE_JOINT_SPEED: "m/s, rad/s",
-             enums.RESPONSE_JOINT_ACCELERATION: "m/s2, rad/s2", enums.RESPONSE_JOINT_REACTION: "N, N m",
-             enums.RESPONSE_JOINT_ACTION: "N, N m", enums.RESPONSE_BIT: "N, N m"}
-    return by_component(about.get(kind, "N, N m"), component)
-
-
 def excitation_unit(kind: int, component: int) -> str:
     """The unit of the amplitude of an input, that of a drive's time function apart."""
     known: dict[int, str] = {enums.EXCITATION_FORCE: by_component("N, N m", component), enums.EXCITATION_BIT_LOAD: "N",
@@ -238,7 +225,12 @@ def excitation_unit(kind: int, component: int) -> str:
 def event_fields() -> dict[str, Field]:
     """The keys of an event: those of its struct, with quantity and place instead of its output."""
     known = {key: field for key, field in fields_of(_structs.EventDef).items() if key not in ("output", "name")}
-    return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
+    return {**output_fields(), **known}
+
+
+def output_fields() -> dict[str, Field]:
+    """The keys of an output."""
+    return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place")}
 
 
 def unit_of_output(quantity: int, setting: str | None, component: int | None) -> str:
@@ -274,5 +266,5 @@ DEFINITIONS: dict[str, Any] = {
     "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "sub": _structs.SubDef, "segment": _structs.Segment,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
-    "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response excitation": _structs.Excitation, "output": _structs.ResponseOutput,
+    "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response excitation": _structs.Excitation,
     "order": _structs.Order}

@@ -89,7 +89,7 @@ place = "feed drive"
 [[speeds.order]]
 [[speeds.output]]
 name = "middle of the string"
-component = "z"
+quantity = "vibration-z"
 place = {{part = "rods", pipe = {middle}, fraction = 0.5}}
 limit = "{clearance}"
 """

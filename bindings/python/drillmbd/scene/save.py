@@ -306,6 +306,12 @@ class Writer:
         if kind == "spring" and description.get("table"):
             self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
 
+    def _quantity(self, place: Place | None, quantity: int) -> None:
+        """The keys of an output."""
+        self._key("quantity", fields.word_of(Named(quantity)))
+        if place is not None:
+            self._key("place", self._place(place))
+
     def _event(self, description: dict[str, Any]) -> None:
         out = description.get("output", Output())
         known = fields.event_fields()
@@ -347,9 +353,7 @@ class Writer:
                     self._key(key, self._plain(known[key], value, None))
         for number, (output, place, quantity) in enumerate(self.scene.outputs):
             self._head("[[output]]", ("output", number), output)
-            self._key("quantity", fields.word_of(Named(quantity)))
-            if place is not None:
-                self._key("place", self._place(place))
+            self._quantity(place, quantity)
         for name in ANALYSES:
             if name in self.scene.analyses or name in ("static", "modes"):
                 self._analysis(name, self.scene.effective(name))
@@ -385,11 +389,7 @@ class Writer:
                 self._excitation({"kind": enums.EXCITATION_ECCENTRICITY, **{key: value for key, value in one.items() if key != "order"}})
         for number, one in enumerate(values.get("output", [])):
             self._head(f"[[{name}.output]]", (name, "output", number), one["name"])
-            left_out: tuple[str, ...] = ()
-            if one.get("kind") == enums.RESPONSE_OUTPUT:
-                self._key("quantity", fields.word_of(Named(one["component"])))
-                left_out = ("kind", "component")
-            self._table("output", one, None, left_out)
+            self._quantity(one.get("place"), one["quantity"])
             if "limit" in one:
                 self._key("limit", units.text(one["limit"], one["unit"]))
 

@@ -5,11 +5,10 @@ import json
 from typing import Any
 
 from .._structs import Motor
-from ..outputs import Named
 from . import failure, hole, sub, variability
 from .settings import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
-from .fields import DEFINITIONS, Field, event_fields, fields_of, words_of
+from .fields import DEFINITIONS, Field, event_fields, fields_of, output_fields, words_of
 
 _NAME = {"type": "string", "minLength": 1}
 _PLACE: dict[str, Any] = {"oneOf": [_NAME, {
@@ -81,8 +80,7 @@ def schema() -> dict[str, Any]:
         "time_function": _many(_object({}, ("segment",), name=_NAME, unit=_NAME, segment=_many(_segment()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
         "run": _object(RUN), "results": _object(OUTPUT), "limits": _object(LIMITS, rig={**_NAME, "description": "name of a catalogue, for torque, push and pull that are left out: drillmbd catalogue"}),
-        "output": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
-                                  "place": Field("place", "place")}, ("quantity",), name=_NAME))}
+        "output": _many(_object(output_fields(), ("quantity",), name=_NAME))}
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
                                 **({"table": _TABLE} if kind == "spring" else {}),
@@ -103,12 +101,12 @@ def schema() -> dict[str, Any]:
 
 
 def _asked(kind: str) -> dict[str, Any]:
-    out = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
+    out = output_fields()
     if kind == "response":
-        return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))), "output": _many(_object(out, name=_NAME))}
+        return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))), "output": _many(_object(out, ("quantity",), name=_NAME))}
     if kind == "speeds":
         order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["response excitation"])}
-        return {"order": _many(_object(order)), "output": _many(_object(out, ("limit",), name=_NAME, limit=_QUANTITY))}
+        return {"order": _many(_object(order)), "output": _many(_object(out, ("quantity", "limit"), name=_NAME, limit=_QUANTITY))}
     return {}
 
 

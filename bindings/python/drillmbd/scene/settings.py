@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
-from ..outputs import Named
 from ..unit_choice import UnitSystem
 from . import fields, units
 from .content import ANALYSES, Scene
@@ -64,8 +63,7 @@ class Asked:
                 scene.analyses[kind] = self._analysis(kind)
 
     def _output(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
-        known = {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place")}
-        values = self.loader.read(path, table, known, ("name",))
+        values = self.loader.read(path, table, fields.output_fields(), ("name",))
         name = table.get("name", f"output-{number}")
         if not isinstance(name, str):
             self.loader.problems.add(path + ("name",), name, "must be a text")
@@ -137,15 +135,10 @@ class Asked:
         return self.loader.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
 
     def _response_output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
-        known = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
-        values = self.loader.read(path, table, known, ("name", "limit") if limited else ("name",))
-        if values.get("kind") == enums.RESPONSE_OUTPUT and "quantity" not in values:
-            self.loader.problems.add(path + ("kind",), table.get("kind"), "must be left out; give the output's quantity")
-        if "quantity" in values:
-            values["kind"], values["component"] = enums.RESPONSE_OUTPUT, values.pop("quantity")
-        unit = fields.response_unit(values.get("kind", 0), values.get("component", 0))
-        if values.get("kind") == enums.RESPONSE_OUTPUT and values.get("component") is not None:
-            unit = self.loader.output_unit(values["component"], table.get("place"))
+        values = self.loader.read(path, table, fields.output_fields(), ("name", "limit") if limited else ("name",))
+        if "quantity" not in table:
+            self.loader.problems.add(path, None, 'must have a quantity, as "vibration-z" or "hook-load"')
+        unit = self.loader.output_unit(values["quantity"], table.get("place")) if "quantity" in values else "-"
         values["name"] = str(table.get("name", f"output-{path[-1]}"))
         if limited:
             try:
