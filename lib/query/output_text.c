@@ -44,7 +44,9 @@ static void put_part(const dmb_model *model, dmb_id part, dmb_message *text)
     const char *const word = dmb_part_word(kind), *name = "";
     if (word != NULL && model != NULL && dmb_model_part_index(model, part, kind) != DMB_NONE)
         name = dmb_part_name(model, kind, number);
-    if (name[0] != '\0')
+    if (part.index == 0)
+        dmb_message_set(text, " of no part");
+    else if (name[0] != '\0')
         dmb_message_set(text, " of %s %s", word, name);
     else
         dmb_message_set(text, " of %s %u", word != NULL ? word : "part", number);

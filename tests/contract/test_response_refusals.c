@@ -295,7 +295,7 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0, vibration_x of string 0 pipe 9 at 1.5: ");
     REFUSED(DMB_ERR_ID, s.output.place.part = s.load, "output 0, vibration_x of load 0 pipe 9 at 1: ");
     REFUSED(DMB_ERR_ID, (s.output.quantity = DMB_OUTPUT_SECTION_STRAIN, s.output.place.part = s.drive),
-            "output 0, section_strain_x of drive 0 pipe 9 at 1: ");
+            "output 0, section_strain_x of no part pipe 9 at 1: ");
     REFUSED(DMB_ERR_VALUE, (s.output.quantity = DMB_OUTPUT_CONTACT_NORMAL_FORCE, s.output.place.pipe = 7),
             "output 0, contact_normal_force of contact point 7: place.pipe");
     REFUSED(DMB_ERR_UNSUPPORTED, (s.output.quantity = DMB_OUTPUT_CONTACT_GAP, s.output.place.pipe = 0),
