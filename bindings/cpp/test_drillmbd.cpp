@@ -149,11 +149,11 @@ void snapshots()
 void matrices_have_shapes(drillmbd::sim &sim, const dmb_place &place)
 {
     dmb_excitation pushes[2] = {dmb_excitation_default(), dmb_excitation_default()};
-    dmb_response_output seen[3] = {dmb_response_output_default(), dmb_response_output_default(),
-                                   dmb_response_output_default()};
+    dmb_output seen[3] = {};
     for (std::int32_t i = 0; i < 3; ++i) {
         pushes[i % 2].place = seen[i].place = place;
-        pushes[i % 2].component = seen[i].component = i;
+        pushes[i % 2].component = i;
+        seen[i].quantity = DMB_OUTPUT_VIBRATION + i;
     }
     const drillmbd::state_space space = sim.state_space(pushes, seen);
     const std::size_t states = space.info().states;

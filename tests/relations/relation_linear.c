@@ -298,7 +298,8 @@ static int32_t circle(built *b, part_ref place, const dmb_response_options *opti
         const material_point at = {place, DMB_Y + i};
         in[i] = input_of(b, &at);
         answer[i] = output_of(b, &at);
-        in[i].frame = answer[i].frame = DMB_FRAME_BODY;
+        in[i].frame = DMB_FRAME_BODY;
+        answer[i].quantity += DMB_OUTPUT_VIBRATION_BODY - DMB_OUTPUT_VIBRATION;
     }
     const int32_t status = dmb_analysis_response(b->sim, options, in, 2, answer, 2, &response);
     for (uint32_t i = 0; i < 2 && status >= 0; ++i)
