@@ -289,7 +289,7 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_EXCITATION_DRIVE, "excitation 0: place.part names no drive");
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_EXCITATION_BIT_LOAD, "excitation 0: place.part names no bit");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "excitation 0: struct_size");
-    REFUSED(DMB_ERR_VALUE, s.output.quantity = 99, "output 0: quantity = 99, must be one that dmb_output_name knows");
+    REFUSED(DMB_ERR_VALUE, s.output.quantity = 99, "output 0: quantity = 99, must be a DMB_OUTPUT_ number");
     REFUSED(DMB_ERR_VALUE, s.output.quantity = -1, "output 0: quantity = -1");
     REFUSED(DMB_ERR_VALUE, s.output.quantity = DMB_OUTPUT_VIBRATION + 6, "output 0: quantity = 466");
     REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0, vibration_x of string 0 pipe 9 at 1.5: ");
