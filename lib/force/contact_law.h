@@ -19,6 +19,16 @@ typedef struct dmb_site {
     uint32_t node;
 } dmb_site;
 
+/* An axial-torsional node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved
+ * holes. */
+typedef struct dmb_axial_torsional_site {
+    double radius; /* [m] */
+    double length; /* [m] it stands for */
+    dmb_id part;
+    uint32_t pipe;
+    uint32_t node;
+} dmb_axial_torsional_site;
+
 /* Force and tangent of a contact ring on the wall of the hole, for numbers that are doubles or lanes of doubles
  * (math/real.h).
  *

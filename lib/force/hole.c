@@ -389,6 +389,13 @@ static dmb_friction_law friction_at(const dmb_hole_piece *piece, const dmb_frict
     return local;
 }
 
+void dmb_friction_coefficients_at(const dmb_hole *hole, double s, double *mu_static, double *mu_dynamic)
+{
+    const dmb_hole_piece *piece = dmb_hole_piece_at(hole, s);
+    *mu_static = hole->friction * dmb_hole_piece_value(piece, DMB_WALL_MU_STATIC, s);
+    *mu_dynamic = hole->friction * dmb_hole_piece_value(piece, DMB_WALL_MU_DYNAMIC, s);
+}
+
 dmb_normal_law dmb_normal_law_at(const dmb_hole *hole, const dmb_normal_law *law, double s)
 {
     return hole->pieces == 0 ? *law : normal_at(dmb_hole_piece_at(hole, s), law, s);

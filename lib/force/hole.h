@@ -220,6 +220,8 @@ double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double 
  * unchanged. */
 dmb_normal_law dmb_normal_law_at(const dmb_hole *hole, const dmb_normal_law *law, double s);
 dmb_friction_law dmb_friction_law_at(const dmb_hole *hole, const dmb_friction_law *law, double s);
+/* Its coefficients at a depth of a hole with pieces. */
+void dmb_friction_coefficients_at(const dmb_hole *hole, double s, double *mu_static, double *mu_dynamic);
 
 /* Wall properties at a depth, with derivatives by depth. */
 typedef struct dmb_local_wall {

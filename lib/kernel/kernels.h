@@ -62,6 +62,35 @@ typedef struct dmb_axial_torsional_args {
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
 } dmb_axial_torsional_args;
 
+/* Weight, damping and friction on a run of axial-torsional nodes. Pointers are to the run's first node, row, block or
+ * contact point. */
+typedef struct dmb_axial_torsional_node_args {
+    uint32_t count;           /* nodes */
+    int32_t dynamic, tangent; /* as in dmb_evaluation, as are: */
+    int32_t weighs;           /* 1: their weight acts along the axis */
+    double step, velocity_factor, load_factor;
+    const double *gravity;                 /* [m/s2] (3) */
+    const dmb_hole *hole;                  /* NULL: none */
+    const double *depth;                   /* [m] measured, of displacement 0, shape (count) */
+    const double *displacement;            /* [m] shape (count, 3), of which the first is along the axis */
+    const double *quaternion;              /* at time 0, shape (count, 4) */
+    const double *weight_mass;             /* [kg] shape (count) */
+    const double *damping;                 /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
+    const double *velocity;                /* shape (count, 2) */
+    const dmb_axial_torsional_site *sites; /* one of each node; NULL: none */
+    const dmb_friction_law *friction_law;  /* NULL: no friction acts */
+    const double *tension;                 /* [N] at each node; read in a curved hole */
+    double slip[2];                        /* [m/s, rad/s] in statics */
+    const double *now_bristle, *now_slip;  /* of the last accepted instant, shape (count, 2); and: */
+    const int32_t *now_sticks;
+    double *bristle, *trial_slip, *friction; /* of the trial, written, shape (count, 2); and: */
+    int32_t *sticks;
+    double *residual, *scale; /* added to, shape (count, 2) */
+    double *inertia;          /* blocks, added to, shape (count, 4) */
+    double *by_tension;       /* written: dF/dT of both rows, shape (count, 2); NULL: not wanted */
+    double potential, damping_power, friction_power; /* added to: [W] */
+} dmb_axial_torsional_node_args;
+
 /* A run of six-DOF nodes. */
 typedef struct dmb_node_args {
     uint32_t count;
@@ -254,6 +283,8 @@ typedef struct dmb_kernels {
     int32_t (*beams)(dmb_beam_args *args);
     /* Forces. */
     void (*axial_torsional_elements)(dmb_axial_torsional_args *args);
+    /* Forces and, if asked for, tangent blocks. */
+    void (*axial_torsional_nodes)(dmb_axial_torsional_node_args *args);
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (job->velocity), at job->strain. */
     void (*extrapolate)(const dmb_beam_args *args);
     void (*advance)(dmb_node_args *args);

@@ -4,6 +4,7 @@
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 #include "kernel/lanes_axial_torsional.h"
+#include "kernel/lanes_axial_torsional_node.h"
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_response.h"
 #include "kernel/lanes_wall.h"
@@ -343,6 +344,7 @@ extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
                                  .axial_torsional_elements = axial_torsional_elements,
+                                 .axial_torsional_nodes = axial_torsional_nodes,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,
                                  .walls = walls,

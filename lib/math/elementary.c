@@ -4,20 +4,9 @@
 #include <string.h>
 
 #include "math/real.h"
+#include "math/real_sine.h"
 
-/* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth) --------- */
-
-typedef struct pair {
-    double high, low;
-} pair;
-
-/* a + b exactly */
-static pair two_sum(double a, double b)
-{
-    const double sum = a + b, of_b = sum - a;
-    const pair p = {sum, (a - (sum - of_b)) + (b - of_b)};
-    return p;
-}
+typedef dmb_sum pair;
 
 /* The upper 26 bits of a. */
 static double upper(double a)
@@ -36,28 +25,26 @@ static pair two_product(double a, double b)
 
 static pair pair_sum(pair a, pair b)
 {
-    const pair s = two_sum(a.high, b.high);
-    return two_sum(s.high, s.low + (a.low + b.low));
+    const pair s = dmb_two_sum(a.high, b.high);
+    return dmb_two_sum(s.high, s.low + (a.low + b.low));
 }
 
 static pair pair_product(pair a, pair b)
 {
     const pair p = two_product(a.high, b.high);
-    return two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+    return dmb_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
 }
 
 /* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4 ---------------------------------------------- */
 
 #define DMB_REDUCE_NEAR 1.6e6 /* [rad] up to which the number of quarters has 20 bits */
 
-/* pi/2 in parts of 33 bits, whose products with the number of quarters are exact (Cody, Waite 1980). */
 static pair reduce_near(double x, uint32_t *quarter)
 {
-    const double shifted = x * 0x1.45f306dc9c883p-1 + DMB_ROUNDING, n = shifted - DMB_ROUNDING;
-    const pair second = two_sum(x - n * 0x1.921fb544p+0, -n * 0x1.0b4611a6p-34);
-    const pair third = two_sum(second.high, -n * 0x1.3198a2ep-69);
+    double n;
+    const pair rest = dmb_reduce_near(x, &n);
     *quarter = (uint32_t)(int32_t)n;
-    return two_sum(third.high, (second.low + third.low) - n * 0x1.b839a252049c1p-104);
+    return rest;
 }
 
 /* Bits of 2/pi after its point. */
@@ -103,8 +90,8 @@ static pair fraction_of(const uint32_t product[PRODUCT], int point, int negative
         uint32_t word = negative ? ~product[i] : product[i];
         if (below <= 0) continue;
         if (below < 32) word &= (UINT32_C(1) << below) - 1;
-        const pair s = two_sum(sum.high, (double)word * power_of_two(-below));
-        sum = two_sum(s.high, s.low + sum.low);
+        const pair s = dmb_two_sum(sum.high, (double)word * power_of_two(-below));
+        sum = dmb_two_sum(s.high, s.low + sum.low);
     }
     if (negative) sum.high = -sum.high, sum.low = -sum.low; /* the last bit of 224 that ~ omits is insignificant */
     return sum;
@@ -138,39 +125,9 @@ static pair reduce(double x, uint32_t *quarter)
 
 /* ---- Sine and cosine --------------------------------------------------------------------------------------------- */
 
-/* x - x^3/3! + ... - x^19/19! of |x| <= pi/4 */
-static double sine_near(pair x)
-{
-    static const double series[9] = {-1.0 / 6.0,
-                                     1.0 / 120.0,
-                                     -1.0 / 5040.0,
-                                     1.0 / 362880.0,
-                                     -1.0 / 39916800.0,
-                                     1.0 / 6227020800.0,
-                                     -1.0 / 1307674368000.0,
-                                     1.0 / 355687428096000.0,
-                                     -1.0 / 121645100408832000.0};
-    const double z = x.high * x.high;
-    double sum = series[8];
-    for (int i = 7; i >= 0; i--) sum = sum * z + series[i];
-    return x.high + (x.high * z * sum + x.low * (1.0 - 0.5 * z));
-}
-
-/* 1 - x^2/2! + ... - x^18/18! */
-static double cosine_near(pair x)
-{
-    static const double series[8] = {
-        1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
-        1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
-    const double z = x.high * x.high, half = 0.5 * z, most = 1.0 - half;
-    double sum = series[7];
-    for (int i = 6; i >= 0; i--) sum = sum * z + series[i];
-    return most + (((1.0 - most) - half) + (z * z * sum - x.high * x.low));
-}
-
 static double in_quarter(pair rest, uint32_t quarter)
 {
-    const double value = quarter & 1 ? cosine_near(rest) : sine_near(rest);
+    const double value = quarter & 1 ? dmb_cosine_near(rest) : dmb_sine_near(rest);
     return quarter & 2 ? -value : value;
 }
 
@@ -218,7 +175,7 @@ static pair logarithm(double x)
     double m;
     memcpy(&m, &bits, sizeof m);
     if (m > 1.4142135623730951) m *= 0.5, exponent++;
-    const pair below = two_sum(1.0, m);
+    const pair below = dmb_two_sum(1.0, m);
     pair s = {(m - 1.0) / below.high, 0.0};
     const pair back = two_product(s.high, below.high);
     s.low = (((m - 1.0 - back.high) - back.low) - s.high * below.low) / below.high;
@@ -228,7 +185,7 @@ static pair logarithm(double x)
     const pair tail = {z.high * sum, 0.0}, part = pair_product(z, pair_sum(third, tail));
     const pair twice = {2.0 * s.high, 2.0 * s.low}, log_m = pair_sum(twice, pair_product(twice, part));
     const double e = exponent;
-    const pair scale = two_sum(e * DMB_LN2_HIGH, e * -0x1.8432a1b0e2000p-43);
+    const pair scale = dmb_two_sum(e * DMB_LN2_HIGH, e * -0x1.8432a1b0e2000p-43);
     const pair log_2 = {scale.high, scale.low + e * -0x1.8cff81a12a17ep-85};
     return pair_sum(log_2, log_m);
 }
@@ -240,7 +197,7 @@ double dmb_pow(double x, double y)
     if (x == 0.0 || isinf(x)) return (x == 0.0) == (y > 0.0) ? 0.0 : (double)INFINITY;
     if (fabs(y) > 0x1p64) return (x > 1.0) == (y > 0.0) ? (double)INFINITY : 0.0;
     const pair log_x = logarithm(x), product = two_product(y, log_x.high);
-    const pair power = two_sum(product.high, product.low + y * log_x.low);
+    const pair power = dmb_two_sum(product.high, product.low + y * log_x.low);
     if (power.high < -708.0) return 0.0;
     if (power.high > 709.0) return (double)INFINITY;
     return dmb_real_exp_near(power.high, power.low);

@@ -37,16 +37,6 @@ enum {
     DMB_KERNEL_MIXED = 2            /* a beam with one six-DOF and one axial-torsional node */
 };
 
-/* An axial-torsional node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved
- * holes. */
-typedef struct dmb_axial_torsional_site {
-    double radius; /* [m] */
-    double length; /* [m] it stands for */
-    dmb_id part;
-    uint32_t pipe;
-    uint32_t node;
-} dmb_axial_torsional_site;
-
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
     double mud_pressure; /* [Pa/(N m)] */

@@ -67,7 +67,7 @@ typedef struct dmb_drive_variables {
     X(double, friction_slip, 2, NUMBERS)        /* [m/s, rad/s] assumed sliding speeds, axial and rotational, for     \
                                                    wall friction in a static state; 0: velocities of the nodes */     \
     X(double, axial_torsional_slip, 2 * p, NUMBERS) /* [m/s] likewise of axial-torsional nodes */                     \
-    X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps                \
+    X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] assemble/nodes_axial_torsional; at jumps              \
                                                             system/assemble/ledger_work */                            \
     X(double, axial_torsional_bristle, 2 * pb, NUMBERS) /* [m] */                                                     \
     X(int32_t, axial_torsional_sticks, pb, FLAGS) /* [-] */                                                           \

@@ -31,6 +31,10 @@ void dmb_joint_press_mean(dmb_evaluation *evaluation, uint32_t j, uint32_t compo
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 
 void dmb_assemble_nodes(dmb_evaluation *evaluation);
+/* The run of axial-torsional nodes from `first` on: rigid masses from `rigid_mass` on, weight, damping, and friction at
+ * the contact points from *site on, which is moved behind them. Returns the number of nodes. */
+uint32_t dmb_assemble_axial_torsional_nodes(dmb_evaluation *evaluation, uint32_t first, uint32_t rigid_mass,
+                                            uint32_t *site);
 void dmb_assemble_added_masses(dmb_evaluation *evaluation);
 void dmb_assemble_loads(dmb_evaluation *evaluation);
 void dmb_assemble_flow(dmb_evaluation *evaluation);
@@ -140,7 +144,6 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation);
 void dmb_press_sites(const dmb_sim *sim, dmb_wall_args *args);
 /* Contact points inside elements whose evaluation was deferred. */
 void dmb_contacts_accept(dmb_evaluation *evaluation);
-void dmb_assemble_axial_torsional_friction(dmb_evaluation *evaluation);
 
 /* Contact points inside elements: contact along the element, at integration points of its own interpolation. They are
  * numbered last. */

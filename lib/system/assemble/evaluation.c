@@ -135,7 +135,6 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     dmb_assemble_nodes(evaluation);
     if (scene->added_mass_count && evaluation->dynamic) dmb_assemble_added_masses(evaluation);
     if (scene->site_count) dmb_assemble_contacts(evaluation);
-    if (scene->axial_torsional_site_count) dmb_assemble_axial_torsional_friction(evaluation);
     if (scene->load_count) dmb_assemble_loads(evaluation);
     if (scene->flow_count) dmb_assemble_flow(evaluation);
     if (scene->drive_count) dmb_assemble_drives(evaluation);

@@ -112,87 +112,19 @@ static void assemble_six_dof(dmb_evaluation *evaluation, uint32_t node, uint32_t
     evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
 }
 
-/* ---- axial-torsional nodes: along the axis and about it
- * -----------------------------------------------------------------------
- */
-
-/* Rigid mass on an axial-torsional node: only mass and inertia about the axis act. */
-static void assemble_axial_torsional_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
-{
-    dmb_sim *sim = evaluation->sim;
-    const uint32_t row = sim->scene->layout.row[rigid_mass->node];
-    const double *v = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
-    const double f[6] = {-rigid_mass->mass * a[0], 0.0, 0.0, -rigid_mass->inertia[0] * a[1], 0.0, 0.0};
-    evaluation->power[DMB_POWER_INERTIA] += v[0] * f[0] + v[1] * f[3];
-    dmb_apply_wrench(sim, rigid_mass->node, f);
-    if (!evaluation->tangent) return;
-    dmb_inertia_of(sim, rigid_mass->node)[0] += evaluation->mass_factor * rigid_mass->mass;
-    dmb_inertia_of(sim, rigid_mass->node)[3] += evaluation->mass_factor * rigid_mass->inertia[0];
-}
-
-/* Unit vector (world) along which an axial-torsional node advances: the hole's tangent at its depth, or the x axis of
- * its initial pose in a straight hole or none. It is the node's x axis whatever its rotation, so that no pose is
- * needed. */
-static void direction_of_advance(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double tangent[3])
-{
-    double R[9], point[3];
-    if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
-        dmb_hole_frame(&scene->hole, dmb_axial_torsional_depth(scene, c, node), point, tangent, NULL);
-        return;
-    }
-    dmb_quat_to_matrix(scene->reference_quaternion + 4 * (size_t)node, R);
-    for (int i = 0; i < 3; i++) tangent[i] = R[3 * i];
-}
-
-static void assemble_axial_torsional_weight(dmb_evaluation *evaluation, uint32_t node)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    double tangent[3];
-    direction_of_advance(scene, &sim->trial, node, tangent);
-    const double along = evaluation->load_factor * scene->weight_mass[node] * dmb_vec3_dot(tangent, scene->gravity);
-    const double f[6] = {along, 0.0, 0.0, 0.0, 0.0, 0.0};
-    dmb_apply_wrench(sim, node, f);
-    if (!evaluation->dynamic) return;
-    evaluation->power[DMB_POWER_POTENTIAL] += along * sim->trial.velocity[scene->layout.row[node]];
-}
-
-static void assemble_axial_torsional_damping(dmb_evaluation *evaluation, uint32_t node)
-{
-    dmb_sim *sim = evaluation->sim;
-    const double *c = sim->scene->node_damping + 5 * node;
-    const double *v = sim->trial.velocity + sim->scene->layout.row[node];
-    const double f[6] = {-c[0] * v[0], 0.0, 0.0, -c[1] * v[1], 0.0, 0.0};
-    dmb_apply_wrench(sim, node, f);
-    evaluation->power[DMB_POWER_DAMPING] += f[0] * v[0] + f[3] * v[1];
-    if (!evaluation->tangent) return;
-    dmb_inertia_of(sim, node)[0] += evaluation->velocity_factor * c[0];
-    dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
-}
-
-static void assemble_axial_torsional(dmb_evaluation *evaluation, uint32_t node, const dmb_rigid_mass *rigid_mass)
-{
-    const int32_t features = evaluation->sim->scene->features;
-    if (rigid_mass && evaluation->dynamic) assemble_axial_torsional_rigid_mass(evaluation, rigid_mass);
-    if (features & DMB_FEATURE_GRAVITY) assemble_axial_torsional_weight(evaluation, node);
-    if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) assemble_axial_torsional_damping(evaluation, node);
-}
-
-/* All nodes and their rigid masses in order. */
+/* All nodes with their rigid masses and axial-torsional contact points in order. */
 void dmb_assemble_nodes(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    if (!(scene->features & (DMB_FEATURE_GRAVITY | DMB_FEATURE_DAMPING)) && scene->rigid_mass_count == 0) return;
-    for (uint32_t i = 0, rigid_mass = 0, count; i < scene->node_count; i += count) {
+    const int32_t acting = scene->features & (DMB_FEATURE_GRAVITY | DMB_FEATURE_DAMPING);
+    if (!acting && scene->rigid_mass_count == 0 && scene->axial_torsional_site_count == 0) return;
+    for (uint32_t i = 0, rigid_mass = 0, site = 0, count; i < scene->node_count; i += count) {
         count = dmb_six_dof_nodes_at(scene, i);
         while (rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node < i) rigid_mass++;
-        if (count > 0) {
+        if (count > 0)
             assemble_six_dof(evaluation, i, count, rigid_mass);
-        } else {
-            const int has = rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node == i;
-            assemble_axial_torsional(evaluation, i, has ? scene->rigid_masses + rigid_mass : NULL);
-            count = 1;
-        }
+        else
+            count = dmb_assemble_axial_torsional_nodes(evaluation, i, rigid_mass, &site);
     }
 }
 

@@ -1,0 +1,204 @@
+/* Axial-torsional nodes: rigid masses one by one; weight, damping and friction on the wall by the kernels
+ * (kernel/lanes_axial_torsional_node.h), which take the frame of the hole at each node once. */
+#include <string.h>
+
+#include "element/beam.h"
+#include "kernel/kernels.h"
+#include "sim/node.h"
+#include "system/assemble/assemble.h"
+#include "system/assemble/evaluation.h"
+
+/* Rigid mass on an axial-torsional node: only mass and inertia about the axis act. */
+static void assemble_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[rigid_mass->node];
+    const double *v = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
+    const double f[6] = {-rigid_mass->mass * a[0], 0.0, 0.0, -rigid_mass->inertia[0] * a[1], 0.0, 0.0};
+    evaluation->power[DMB_POWER_INERTIA] += v[0] * f[0] + v[1] * f[3];
+    dmb_apply_wrench(sim, rigid_mass->node, f);
+    if (!evaluation->tangent) return;
+    dmb_inertia_of(sim, rigid_mass->node)[0] += evaluation->mass_factor * rigid_mass->mass;
+    dmb_inertia_of(sim, rigid_mass->node)[3] += evaluation->mass_factor * rigid_mass->inertia[0];
+}
+
+/* ---- Tension --------------------------------------------------------------------------------------------------- */
+
+/* [N] Tension of an element at the trial; the strain of a mixed element is stored. */
+static double tension_of(const dmb_sim *sim, uint32_t element)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_element_type *type = scene->types + scene->element_type[element];
+    const uint32_t a = scene->element_node[element];
+    const double *u = sim->trial.displacement + 3 * (size_t)a;
+    if (scene->layout.size[a] != DMB_NODE_AXIAL_TORSIONAL || scene->layout.size[a + 1] != DMB_NODE_AXIAL_TORSIONAL)
+        return type->stiffness[0] * dmb_beam_stretch(type, sim->element_strain + 6 * (size_t)element);
+    return type->stiffness[0] * ((u[3] - u[0]) + (type->length - type->rest[0]));
+}
+
+/* Mean tension of the elements on both sides of each node [N]. */
+static void find_tensions(const dmb_sim *sim, uint32_t first, uint32_t count, double *tension)
+{
+    uint32_t element = dmb_element_between(sim->scene, first, 0);
+    double before = element != DMB_NONE ? tension_of(sim, element) : 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t next = sim->scene->node_element[first + i];
+        const double after = next != DMB_NONE ? tension_of(sim, next) : 0.0;
+        const double both = element != DMB_NONE && next != DMB_NONE ? 2.0 : 1.0;
+        tension[i] = (before + after) / both;
+        element = next;
+        before = after;
+    }
+}
+
+/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. */
+static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[2])
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t before = dmb_element_between(scene, node, 0), after = dmb_element_between(scene, node, 1);
+    const double share = before != DMB_NONE && after != DMB_NONE ? 0.5 : 1.0;
+    const dmb_block_layout *layout = &scene->layout;
+    for (uint32_t k = 0; k < 2; k++) {
+        const double d = -share * dF_dT[k]; /* of the residual */
+        if (before != DMB_NONE && layout->size[node - 1] == DMB_NODE_AXIAL_TORSIONAL) {
+            const double stiffness = scene->types[scene->element_type[before]].stiffness[0];
+            dmb_stiffness_of(sim, node)[2 * k] += d * stiffness;
+            sim->stiffness_lower[layout->link[node - 1] + 2 * k] -= d * stiffness;
+        }
+        if (after != DMB_NONE && layout->size[node + 1] == DMB_NODE_AXIAL_TORSIONAL) {
+            const double stiffness = scene->types[scene->element_type[after]].stiffness[0];
+            dmb_stiffness_of(sim, node)[2 * k] -= d * stiffness;
+            sim->stiffness_upper[layout->link[node] + 2 * k] += d * stiffness;
+        }
+    }
+}
+
+/* ---- Runs ------------------------------------------------------------------------------------------------------ */
+
+/* [-] nodes of a run that go to the kernels together */
+enum { PATH_NODES = 64 };
+
+/* A part of a run: either each node has a contact point, the first one `site`, or none has (DMB_NONE). */
+typedef struct path_part {
+    uint32_t node, count, site, reserved;
+    double tension[PATH_NODES], by_tension[2 * PATH_NODES];
+    dmb_friction_law sliding;
+} path_part;
+
+/* The part that begins at the node; *site is the first contact point that is not behind it. */
+static void take_part(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t site, path_part *part)
+{
+    const dmb_axial_torsional_site *sites = scene->axial_torsional_sites;
+    const uint32_t most = end - node < PATH_NODES ? end - node : PATH_NODES, count = scene->axial_torsional_site_count;
+    const int has = site < count && sites[site].node == node;
+    uint32_t n = 1;
+    while (n < most) {
+        const uint32_t next = has ? site + n : site;
+        if ((next < count && sites[next].node == node + n) != has) break;
+        n++;
+    }
+    part->node = node;
+    part->count = n;
+    part->site = has ? site : DMB_NONE;
+}
+
+static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, const path_part *part)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t row = scene->layout.row[part->node];
+    const size_t node = part->node;
+    const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
+    const dmb_axial_torsional_node_args args = {
+        .count = part->count,
+        .dynamic = evaluation->dynamic,
+        .tangent = evaluation->tangent,
+        .weighs = scene->features & DMB_FEATURE_GRAVITY,
+        .step = evaluation->step,
+        .velocity_factor = evaluation->velocity_factor,
+        .load_factor = evaluation->load_factor,
+        .gravity = scene->gravity,
+        .hole = scene->has_hole ? &scene->hole : NULL,
+        .depth = scene->reference_depth + node,
+        .displacement = sim->trial.displacement + 3 * node,
+        .quaternion = scene->reference_quaternion + 4 * node,
+        .weight_mass = scene->weight_mass + node,
+        .damping = damped ? scene->node_damping + 5 * node : NULL,
+        .velocity = sim->trial.velocity + row,
+        .residual = sim->residual + row,
+        .scale = sim->scale_row + row,
+        .inertia = sim->inertia_diagonal + scene->layout.diag[part->node],
+        .potential = evaluation->power[DMB_POWER_POTENTIAL],
+        .damping_power = evaluation->power[DMB_POWER_DAMPING],
+        .friction_power = evaluation->power[DMB_POWER_FRICTION],
+    };
+    return args;
+}
+
+/* Steady sliding has no memory. */
+static const dmb_friction_law *law_for(const dmb_evaluation *evaluation, path_part *part)
+{
+    const dmb_friction_law *law = &evaluation->sim->scene->friction_law;
+    if (!evaluation->dynamic && !evaluation->slipping) return NULL;
+    if (!dmb_friction_has_memory(law) || !evaluation->steady) return law;
+    part->sliding = dmb_sliding_law(law);
+    return &part->sliding;
+}
+
+static void set_contact(const dmb_evaluation *evaluation, path_part *part, dmb_axial_torsional_node_args *args)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const size_t site = part->site;
+    const int curved = !dmb_hole_is_straight(&scene->hole);
+    args->sites = scene->axial_torsional_sites + site;
+    args->friction_law = law_for(evaluation, part);
+    memcpy(args->slip, evaluation->slip, sizeof args->slip);
+    args->now_slip = sim->now.axial_torsional_slip + 2 * site;
+    args->trial_slip = sim->trial.axial_torsional_slip + 2 * site;
+    args->friction = sim->trial.axial_torsional_friction + 2 * site;
+    if (dmb_scene_has_bristles(scene)) {
+        args->now_bristle = sim->now.axial_torsional_bristle + 2 * site;
+        args->now_sticks = sim->now.axial_torsional_sticks + site;
+        args->bristle = sim->trial.axial_torsional_bristle + 2 * site;
+        args->sticks = sim->trial.axial_torsional_sticks + site;
+    }
+    if (!curved || args->friction_law == NULL) return;
+    find_tensions(sim, part->node, part->count, part->tension);
+    args->tension = part->tension;
+    if (evaluation->tangent && !evaluation->inertia_only) args->by_tension = part->by_tension;
+}
+
+static void assemble_part(dmb_evaluation *evaluation, path_part *part)
+{
+    dmb_axial_torsional_node_args args = args_of(evaluation, part);
+    if (part->site != DMB_NONE) set_contact(evaluation, part, &args);
+    evaluation->sim->scene->kernels->axial_torsional_nodes(&args);
+    evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
+    evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
+    evaluation->power[DMB_POWER_FRICTION] = args.friction_power;
+    for (uint32_t i = 0; i < part->count && args.by_tension != NULL; i++) {
+        const double *by_tension = part->by_tension + 2 * (size_t)i;
+        if (by_tension[0] != 0.0 || by_tension[1] != 0.0)
+            add_tension_tangent(evaluation->sim, part->node + i, by_tension);
+    }
+}
+
+uint32_t dmb_assemble_axial_torsional_nodes(dmb_evaluation *evaluation, uint32_t first, uint32_t rigid_mass,
+                                            uint32_t *site)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    path_part part;
+    uint32_t end = first + 1;
+    while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_AXIAL_TORSIONAL) end++;
+    for (; evaluation->dynamic && rigid_mass < scene->rigid_mass_count; rigid_mass++) {
+        if (scene->rigid_masses[rigid_mass].node >= end) break;
+        assemble_rigid_mass(evaluation, scene->rigid_masses + rigid_mass);
+    }
+    for (uint32_t i = first; i < end; i += part.count) {
+        take_part(scene, i, end, *site, &part);
+        assemble_part(evaluation, &part);
+        if (part.site != DMB_NONE) *site += part.count;
+    }
+    return end - first;
+}
