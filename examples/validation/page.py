@@ -22,6 +22,7 @@ import finite_elements
 import mechanisms
 import paths
 import regenerative
+import rock
 import rolling
 import rotors
 import stick_slip
@@ -54,7 +55,7 @@ CLASSES = {"within": "ok", MISSED: "over", "shown": "open"}
 MORE_STYLE = """table.rows td,table.rows th{font-size:13px}td.number{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;margin:.4em 0}dt{font-weight:bold}dd{margin:0}
 h3{font-size:1.05em;margin:1.6em 0 .2em}summary{cursor:pointer;margin:.4em 0}svg{max-width:100%;height:auto;display:block;margin:.4em 0}"""
-assert all((beams, finite_elements, mechanisms, paths, regenerative, rolling, rotors, stick_slip, tables, torsion, wells, wing, work))
+assert all((beams, finite_elements, mechanisms, paths, regenerative, rock, rolling, rotors, stick_slip, tables, torsion, wells, wing, work))
 
 
 def number(value: float) -> str:
