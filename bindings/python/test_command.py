@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 import unittest
 
 from shared_tests import COMMAND, ENVIRONMENT, HERE, SHORT_RIG, FolderTest, needs
@@ -568,6 +569,15 @@ class CommandTest(FolderTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         done = subprocess.run([*COMMAND, "check", "none.toml"], capture_output=True, text=True, env=ENVIRONMENT)
         self.assertEqual((done.returncode, done.stderr), (3, "drillmbd: No such file or directory: none.toml\n"))
+
+    def test_bounces_are_noted_once(self):
+        from drillmbd.results import note_bounces
+        for bounces in (0, 3):
+            notes = []
+            out = types.SimpleNamespace(summary={"run": {}}, note_text=notes.append)
+            note_bounces(types.SimpleNamespace(statistics=lambda: types.SimpleNamespace(bounces=bounces)), out)
+            self.assertEqual(out.summary["run"]["bounces"], bounces)
+            self.assertEqual(len(notes), 1 if bounces else 0)
 
     def test_ctrl_c_leaves_what_is_done(self):
         process = subprocess.Popen([*COMMAND, "run", self.scene, "--until", "2000 s", "--output", self.output],
