@@ -10,6 +10,7 @@ needs("numpy")
 import numpy as np  # noqa: E402
 
 import drillmbd as mbd  # noqa: E402
+from drillmbd import errors  # noqa: E402
 
 
 class AnswersTest(unittest.TestCase):
@@ -119,6 +120,28 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(options.depth_count, 2)
         by_options = self.sim.torque_drag(["pick-up"], options=options).column("hook_load")
         self.assertEqual(by_options, self.sim.torque_drag(["pick-up"], [10.0, 20.0]).column("hook_load"))
+
+    def test_results_as_mappings(self):
+        profile = self.sim.profile(self.string, 5)
+        self.assertEqual(set(dict(profile)), set(profile._asdict()))
+        rows = self.sim.torque_drag(depths=[5.0, 10.0])
+        self.assertEqual(rows._asdict()["torque"], [row[k].torque for row in rows.rows for k in range(len(rows.operations))])
+        recorder = self.sim.recorder([("table", "drive_force"), "bit_speed"], capacity=2)
+        recorder.take()
+        self.assertEqual(list(recorder._asdict()), ["time [s]", "drive_force of drive table [N m]", "bit_speed [rad/s]"])
+
+    def test_outputs_alike_in_recorder_and_window(self):
+        window = self.sim.window(["bit_speed", ("table", "drive_force")])
+        window.take()
+        self.assertEqual(window.result(1).mean, self.sim.output("drive_force", "table"))
+
+    def test_messages_name_methods(self):
+        model = mbd.Model()
+        model.add_pipes(2)
+        with self.assertRaisesRegex(mbd.Error, r"not compiled, call compile\(\) first"):
+            model.sim()
+        self.assertNotIn("dmb_", model.message)
+        self.assertEqual(errors.in_python("ask for DMB_FREE_..., or dmb_sim_advance"), "ask for FREE_..., or advance()")
 
     def test_wrong_names(self):
         with self.assertRaises(AttributeError) as caught:

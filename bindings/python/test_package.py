@@ -112,14 +112,6 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(mbd.Status(-5), mbd.ERR_VALUE)
         self.assertEqual(mbd.Quantity.BIT_WEIGHT, mbd.OUTPUT_BIT_WEIGHT)
 
-    def test_names_before_they_were_changed(self):
-        for old, new in mbd._OLD_NAMES.items():
-            with self.assertWarns(DeprecationWarning):
-                self.assertIs(getattr(mbd, old), getattr(mbd, new))
-        self.assertIs(mbd.Sim.contact_sum, mbd.Sim.contact_total)
-        with self.assertRaises(AttributeError):
-            mbd.nonsense
-
     def test_version(self):
         self.assertEqual(mbd.__version__, ".".join(map(str, mbd.VERSION)))
         self.assertEqual(mbd._lib.dmb_version(), sum(n * f for n, f in zip(mbd.VERSION, (10000, 100, 1))))

@@ -43,18 +43,6 @@ from .sim import Progress, Sim
 from .state_space import Arrays, StateSpace
 from .window import Window
 
-_OLD_NAMES = {"ContactSum": "ContactTotal", "SineOptions": "SteppedSineOptions", "SineReport": "SteppedSineReport",
-              "MODES_TURNING": "MODES_AXES_TURNING", "MODES_STILL": "MODES_AXES_AT_REST"}
-
-
-def __getattr__(name: str) -> object:
-    if name in _OLD_NAMES:
-        import warnings
-        warnings.warn(f"drillmbd.{name} is {_OLD_NAMES[name]} now", DeprecationWarning, stacklevel=2)
-        return globals()[_OLD_NAMES[name]]
-    raise AttributeError(f"module 'drillmbd' has no attribute '{name}'")
-
-
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
            "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace", "TorqueDrag", "Window", "output_name",
            "output_names", "output_of", "output_quantity", "output_text", "output_unit", "motor_drive", "operation_name", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]

@@ -12,7 +12,7 @@ from ._record import Record
 from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
 from ._values import flat, real, reals, refuse_type, shown
 from .enums import ERR_IO, PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
-from .errors import Error, check
+from .errors import MIRRORED, Error, check
 
 S = TypeVar("S", bound=Record)
 F = TypeVar("F", bound=Callable[..., Any])
@@ -73,6 +73,7 @@ def mirrors(name: str) -> Callable[[F], F]:
     """A method whose docstring ends with the comment of the C function in the header."""
     def put(method: F) -> F:
         text = FUNCTION_DOCS.get(name, "")
+        MIRRORED.setdefault(name, method.__name__)
         method.__doc__ = "\n\n".join(part for part in (method.__doc__, text and f"{name}: {text}") if part)
         return method
     return put

@@ -195,7 +195,7 @@ def _make(cls: type[Record], fields: dict[str, Any]) -> Record:
 
 
 def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
-    """A struct of the kind: a part or None for a place, None for no part, a pair (place, quantity) for a output."""
+    """A struct of the kind: a part or None for a place, None for no part, a pair (place, quantity) for an output."""
     if isinstance(value, kind):
         return value
     word = kind.__name__
@@ -207,7 +207,7 @@ def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
         from .outputs import output_quantity
         return kind(place=value[0], quantity=output_quantity(value[1]))
     bound = {"Place": "be a place, station(string, pipe, fraction), or a part", "Id": "be the id of a part",
-             "Output": 'be a Output or a pair (place, "bit_speed")'}
+             "Output": 'be an Output or a pair (place, "bit_speed")'}
     refuse_type(part, name, value, bound.get(word, f"be a {word}"))
 
 

@@ -269,6 +269,12 @@ class TorqueDrag:
         """A field of the rows of one operation, depth by depth."""
         return [getattr(row[operation], field) for row in self.rows]
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of all rows by name, with the number of the operation."""
+        rows = [(k, row) for rows in self.rows for k, row in enumerate(rows)]
+        names = [name for name in TorqueDragRow.field_docs if name not in ("struct_size", "reserved")]
+        return {"operation": [k for k, _ in rows], **{name: [getattr(row, name) for _, row in rows] for name in names}}
+
     def frame(self) -> Any:
         """All rows as a pandas frame with units in the names of its columns."""
         names = [name for name in TorqueDragRow.field_docs if name not in ("struct_size", "reserved")]
@@ -308,6 +314,10 @@ class Response(Handle):
         if numpy is not None:
             return numpy.array(values).view(complex)
         return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
+
+    def _asdict(self) -> dict[str, Any]:
+        """Frequencies [Hz], and the combined outputs by number, complex."""
+        return {"frequency": self.frequencies, **{f"output {i}": self.transfer(COMBINED, i) for i in range(self.shape[2])}}
 
     def frame(self, names: Sequence[str] | None = None) -> Any:
         """The combined outputs as a pandas frame of complex numbers over the frequency; names of the outputs with their
@@ -388,6 +398,10 @@ class Modes(Shaped):
 
     def __iter__(self) -> Iterator[Mode]:
         return (self[index] for index in range(len(self)))
+
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of all modes by name."""
+        return {name: [mode[name] for mode in self] for name in Mode().keys()}
 
     @property
     def frequencies(self) -> Any:

@@ -27,6 +27,18 @@ def status_text(status: int) -> str:
     return str(lib.dmb_status_text(status).decode())
 
 
+#: Functions of C that a method calls, by their names, and that method; _keep.mirrors fills it.
+MIRRORED: dict[str, str] = {}
+
+
+def in_python(text: str) -> str:
+    """A message of the library with the names of Python: compile() for dmb_model_compile, STEADY_AT_REST for that of C."""
+    def name(match: re.Match[str]) -> str:
+        found = match[0]
+        return found[4:] if found.startswith("DMB_") else MIRRORED[found] + "()" if found in MIRRORED else found
+    return re.sub(r"\b(?:dmb|DMB)_\w+", name, text)
+
+
 def _number(text: str) -> float | str:
     try:
         return float(text.split()[0])
@@ -57,6 +69,7 @@ class Error(Exception):
         self.advice: str | None = None
         if not self._of_library():
             self._of_text()
+        self.message, self.bound, self.advice = (in_python(one) if one else one for one in (self.message, self.bound, self.advice))
         name = status_name(status)
         super().__init__(f"{name}: {self.message}")
         self.name = name  # after AttributeError, whose constructor clears it

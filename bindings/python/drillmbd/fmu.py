@@ -394,12 +394,12 @@ def platform_folder(version: int) -> str:
 
 def find_binary() -> pathlib.Path:
     """The file that becomes the unit's binary: the one named by the environment variable DRILLMBD_FMU, or drillmbd_fmu.so
-    beside the library or this package."""
+    beside the library or this package, or in the folder drillmbd beside the library."""
     own = os.environ.get("DRILLMBD_FMU")
     folders = [pathlib.Path(_library.find()).parent, _library.HERE,
                *map(pathlib.Path, (sys.prefix + "/lib", "/usr/local/lib"))]
     folders += [one / f"{platform.machine()}-linux-gnu" for one in folders[2:]]
-    tried = [one / f"{BINARY}{end}" for one in folders for end in (".so", ".dylib", ".dll")]
+    tried = [one / f"{BINARY}{end}" for folder in folders for one in (folder, folder / "drillmbd") for end in (".so", ".dylib", ".dll")]
     if own:
         tried = [pathlib.Path(own)]
     for path in tried:

@@ -16,7 +16,7 @@ from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, C
                        SubDef, Segment, TimeFunctionId, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
 from .enums import ERR_ORDER, NAME_SIZE, SEGMENT_STEP5, PartKind, Status
-from .errors import Error, check, last_message, status_text
+from .errors import Error, check, in_python, last_message, status_text
 
 if TYPE_CHECKING:
     from ._typed import ModelCalls
@@ -73,7 +73,7 @@ class Model(Handle, ModelCalls):
     @property
     def message(self) -> str:
         """The message of the last failing or noteworthy call on this model."""
-        return str(_lib.dmb_model_message(self._handle).decode())
+        return in_python(_lib.dmb_model_message(self._handle).decode())
 
     def _check(self, status: int) -> int:
         if status >= 0:

@@ -43,6 +43,14 @@ class Profile:
             raise KeyError(f"{quantity!r} is no quantity of a profile; there are {', '.join(self.values)}")
         return self.values[quantity]
 
+    def keys(self) -> list[str]:
+        """The names of the quantities."""
+        return list(self.values)
+
+    def _asdict(self) -> dict[str, Any]:
+        """The quantities by name, each shape (n)."""
+        return dict(self.values)
+
     def _columns(self, *names: str) -> Any:
         return need("numpy").stack([self.values[name] for name in names], axis=1)
 

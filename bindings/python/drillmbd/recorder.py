@@ -91,6 +91,11 @@ class Recorder:
     def __len__(self) -> int:
         return int(self._struct.row_count)
 
+    def _asdict(self) -> dict[str, Any]:
+        """The rows so far by column."""
+        return {name: [row[number] for row in self.table] if numpy is None else self.table[:, number].copy()
+                for number, name in enumerate(self.columns)}
+
     @property
     def columns(self) -> list[str]:
         """Names of the columns with their units, "time [s]" first."""

@@ -20,7 +20,7 @@ from ._structs import BitId, DriveId, EventReport, JointId, SpringId, StringId, 
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .outputs import output_of
 from .enums import FRAME_WORLD, OK
-from .errors import Error, check
+from .errors import Error, check, in_python
 from .inputs import InputLog, Inputs
 from .recorder import ProfileRecorder, Recorder
 from .running import Bar, Lengths, Loop, Progress, Taker, own_takers, warn_of
@@ -81,7 +81,7 @@ class Sim(Handle, analysis.Analyses):
     @property
     def message(self) -> str:
         """The message of the last failing or noteworthy call on this sim."""
-        return str(_lib.dmb_sim_message(self._handle).decode())
+        return in_python(_lib.dmb_sim_message(self._handle).decode())
 
     @property
     def time(self) -> float:
@@ -299,7 +299,6 @@ class Sim(Handle, analysis.Analyses):
         """Sums over all contact points: closed ones, normal force [N], friction [N], deepest penetration [m]."""
         return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
 
-    contact_sum = contact_total  # its name before
 
     @mirrors("dmb_query_hole_now")
     def hole(self, depth: float) -> HolePoint:
