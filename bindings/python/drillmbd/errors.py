@@ -69,7 +69,8 @@ class Error(Exception):
         self.advice: str | None = None
         if not self._of_library():
             self._of_text()
-        self.message, self.bound, self.advice = (in_python(one) if one else one for one in (self.message, self.bound, self.advice))
+        self.message = in_python(self.message)
+        self.bound, self.advice = self.bound and in_python(self.bound), self.advice and in_python(self.advice)
         name = status_name(status)
         super().__init__(f"{name}: {self.message}")
         self.name = name  # after AttributeError, whose constructor clears it
