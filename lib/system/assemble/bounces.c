@@ -106,16 +106,6 @@ void dmb_site_mean_of(const dmb_sim *sim, uint32_t s, double step, dmb_normal_me
                        sim->trial.site_impact_speed[s], sim->site_coarse[s] == DMB_SITE_PLASTIC, step, mean);
 }
 
-double dmb_site_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
-{
-    return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
-}
-
-double dmb_site_rubbed(const dmb_site_force *f)
-{
-    return f->friction[0] * f->slip[0] + f->friction[1] * f->slip[1];
-}
-
 /* ---- Mean forces in the history of a step ------------------------------------------------------------------------
  *
  * A force G that the end of a step stands for changes the speed by h G/m and the place by b h^2 G/m, b = beta/gamma,

@@ -357,6 +357,16 @@ double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *c
     return scene->sites[s].length * force;
 }
 
+double dmb_site_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
+{
+    return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
+}
+
+double dmb_site_rubbed(const dmb_site_force *f)
+{
+    return f->friction[0] * f->slip[0] + f->friction[1] * f->slip[1];
+}
+
 /* Wrench -N n + F_t t + F_b b, b = t x n, at r n from the centre, in body axes at the contact point. */
 void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double factor,
                         const dmb_site_force *f, double *rows)
