@@ -12,10 +12,11 @@
 
 enum { TRAPS = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW };
 
+/* Processors without traps (most of ARM) leave the test out. */
 static void trap(void)
 {
     (void)feclearexcept(FE_ALL_EXCEPT);
-    (void)feenableexcept(TRAPS);
+    if (feenableexcept(TRAPS) < 0) skip();
 }
 
 static void release(void)
