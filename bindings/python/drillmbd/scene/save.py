@@ -48,7 +48,7 @@ def save_record(scene: Scene | Model, path: Any) -> None:
     name = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     name = name if re.match(r"[A-Za-z_]", name) else f"scene_{name}"
     rows = [", ".join(f"0x{one:02x}" for one in found[at:at + 16]) + "," for at in range(0, len(found), 16)]
-    text = [f"/* Scene record for dmb_model_read({name}, sizeof {name}, NULL, &model). */", f"static const unsigned char {name}[{len(found)}] = {{",
+    text = [f"/* Scene record for dmb_model_read({name}, sizeof {name}, NULL, &model). */", "/* clang-format off */", f"static const unsigned char {name}[{len(found)}] = {{",
             *(f"    {row}" for row in rows), "};"]
     path.write_text("\n".join(text) + "\n", encoding="utf-8")
 
