@@ -56,7 +56,7 @@ def ctypes_of(declaration):
              "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p,
              "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p, "dmb_fatigue": ctypes.c_void_p,
              "dmb_sensitivity": ctypes.c_void_p, "dmb_state_equation": ctypes.c_void_p,
-             "dmb_window": ctypes.c_void_p, "dmb_state_space": ctypes.c_void_p, "dmb_progress_fn": mbd.PROGRESS_FN,
+             "dmb_window": ctypes.c_void_p, "dmb_state_space": ctypes.c_void_p, "dmb_progress_fn": mbd.PROGRESS_FN, "dmb_step_fn": mbd.STEP_FN,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)

@@ -448,6 +448,28 @@ class ArraysTest(unittest.TestCase):
         with self.assertRaises(mbd.Error):
             made.outputs([(place, "energy_error")])
 
+    def test_on_step(self):
+        model = mbd.Model()
+        model.add_pipes(2, elements=1)
+        model.compile()
+        sim = model.sim()
+        times = []
+        sim.on_step = lambda time: times.append(time) or len(times) == 3
+        self.assertEqual(sim.steps(1e-4, 5).status, mbd.NOTE_STOPPED)
+        self.assertEqual([round(time, 12) for time in times], [1e-4, 2e-4, 3e-4])
+        self.assertEqual(times[-1], sim.time)
+        self.assertEqual(sim.step(1e-4).status, mbd.OK)
+
+        def fails(_time):
+            raise KeyError("mine")
+
+        sim.on_step = fails
+        with self.assertRaises(KeyError):
+            sim.advance(1e-3)
+        sim.on_step = None
+        self.assertEqual(sim.advance(1e-3).status, mbd.OK)
+        self.assertEqual(len(times), 4)
+
     def test_state_equation(self):
         """By classical Runge-Kutta against the library's own steps."""
         model = mbd.Model()

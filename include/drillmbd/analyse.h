@@ -1057,7 +1057,8 @@ DMB_SIZED_STRUCT(dmb_fatigue_result)
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);
 /* Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted.
- * Another sim of the same model may be given. Allocates nothing. O(places x points). */
+ * Another sim of the same model may be given. DMB_ERR_ORDER before the time of the last sample, as after a restore:
+ * restore the fatigue too. Allocates nothing. O(places x points). */
 DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
 DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);
 /* Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa],

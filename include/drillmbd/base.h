@@ -50,7 +50,7 @@ DMB_API const char *dmb_build_info(void);
     X(DMB_NOTE_STEP_CUT, 1, "done; the step was divided to converge")                                                 \
     X(DMB_NOTE_WORK_LIMITED, 2, "done; the bounded number of iterations was used up above the tolerance")             \
     X(DMB_NOTE_PROJECTED, 3, "done; poses or velocities were projected onto the allowed motion")                       \
-    X(DMB_NOTE_STOPPED, 4, "done; stopped early at the bound on steps")                                               \
+    X(DMB_NOTE_STOPPED, 4, "done; stopped early: bound on steps, or function of accepted steps")                     \
     X(DMB_NOTE_FULL, 5, "done; the caller's memory is full, nothing more is recorded")                                \
     X(DMB_NOTE_TOLERANCE, 6, "done; the smallest step allowed was too long for the error tolerance")                  \
     X(DMB_NOTE_UNSTABLE, 7, "done; the equilibrium that was found is not stable")                                     \

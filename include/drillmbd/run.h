@@ -89,6 +89,15 @@ typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
  * Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
 
+/* Sees the sim after an accepted step and may query, record and save it, but not change it. Returns 0, or nonzero to
+ * end the call. */
+typedef int32_t (*dmb_step_fn)(void *context, const dmb_sim *sim);
+/* From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and
+ * each of dmb_sim_advance and _advance_to_event that is accepted for good: not after parts of a divided step, nor after
+ * steps that are repeated to locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED. NULL (default): no
+ * callback. Neither saved in snapshots nor hashed. Errors as of dmb_sim_set_progress. */
+DMB_API int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context);
+
 typedef struct dmb_step_report {
     uint32_t struct_size;
     uint32_t steps;           /* [-] accepted integration steps in this call */

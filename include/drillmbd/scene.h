@@ -664,6 +664,13 @@ DMB_API int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def
 enum { DMB_PROVIDES_TANGENT = 1, DMB_PROVIDES_POTENTIAL = 2 };
 typedef int32_t (*dmb_force_fn)(void *context, double time, uint32_t place_count, const double (*poses)[12],
                                 const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential);
+/* Place in `tangent` of the derivative of component k of force i by component l of displacement j (by_velocity 0) or
+ * of velocity j (1). */
+static inline uint32_t dmb_tangent_index(uint32_t place_count, int by_velocity, uint32_t i, uint32_t k, uint32_t j,
+                                         uint32_t l)
+{
+    return ((by_velocity ? 6 * place_count : 0) + 6 * i + k) * 6 * place_count + 6 * j + l;
+}
 typedef struct dmb_force_def {
     uint32_t struct_size;
     int32_t frame;                /* DMB_FRAME_WORLD (default), or DMB_FRAME_BODY: axes of each place */

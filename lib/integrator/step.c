@@ -154,6 +154,22 @@ void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_ste
     if (trial_step->status < 0) dmb_trial_step_explain(sim, trial_step);
 }
 
+void dmb_stepping_tell_end(dmb_sim *sim, uint32_t steps)
+{
+    dmb_message_set(&sim->message, "stopped at time %g after %u steps by the caller's function of accepted steps",
+                    sim->clock->time, steps);
+}
+
+int32_t dmb_stepping_stops(dmb_sim *sim, double time, const dmb_stepping *stepping)
+{
+    sim->counters->rejected = stepping->counters.rejected + stepping->report.rejected;
+    sim->counters->iterations = stepping->counters.iterations + stepping->report.iterations;
+    const int ended = dmb_stepping_ends(sim);
+    if (!(sim->clock->time < time)) return 0;
+    if (ended) return 2;
+    return stepping->report.steps == sim->options.max_steps;
+}
+
 int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report,
                          const dmb_stepping *stepping)
 {
@@ -179,6 +195,10 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
     }
     if (status < 0) return status;
     /* Before the notes on accuracy: the requested time was not reached. */
+    if (stepping->stopped == 2) {
+        dmb_stepping_tell_end(sim, out.steps);
+        return DMB_NOTE_STOPPED;
+    }
     if (stepping->stopped) {
         dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
                         sim->options.max_steps);
@@ -278,8 +298,11 @@ static int32_t step(dmb_sim *sim, double duration, dmb_step_report *report)
 
 int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
 {
-    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
-    return status < 0 ? status : dmb_sim_leave(sim, step(sim, duration, report));
+    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    status = step(sim, duration, report);
+    if (status >= 0) (void)dmb_stepping_ends(sim);
+    return dmb_sim_leave(sim, status);
 }
 
 /* ---- Equal steps in one call ------------------------------------------------------------------------------------- */
@@ -319,15 +342,20 @@ static int32_t steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *do
     dmb_step_report sum = dmb_step_report_default();
     dmb_message message;
     uint32_t accepted = 0;
-    int32_t worst = DMB_OK, status = check_steps(sim, duration, report);
+    int32_t worst = DMB_OK, ended = 0, status = check_steps(sim, duration, report);
     if (status < 0) return status;
-    while (status >= 0 && accepted < count) {
+    while (status >= 0 && accepted < count && !ended) {
         dmb_step_report one = dmb_step_report_default();
         dmb_progress_at(sim, (double)accepted / count);
         status = step(sim, duration, &one);
         add_report(&sum, &one);
         note_step(sim, status, &worst, &message);
         accepted += status >= 0;
+        ended = status >= 0 && dmb_stepping_ends(sim);
+    }
+    if (ended && accepted < count) {
+        dmb_stepping_tell_end(sim, sum.steps);
+        note_step(sim, DMB_NOTE_STOPPED, &worst, &message);
     }
     if (worst != DMB_OK) sim->message = message;
     sum.time = sim->clock->time;
@@ -436,7 +464,7 @@ static int32_t advance(dmb_sim *sim, double time, dmb_step_report *report)
     while (status >= 0 && sim->clock->time < time && !stepping.stopped) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
         status = dmb_advance_once(sim, time, &wanted, &stepping);
-        stepping.stopped = stepping.report.steps == sim->options.max_steps && sim->clock->time < time;
+        if (status >= 0) stepping.stopped = dmb_stepping_stops(sim, time, &stepping);
     }
     return dmb_stepping_end(sim, status, 0, report, &stepping);
 }

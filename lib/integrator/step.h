@@ -13,7 +13,7 @@ typedef struct dmb_stepping {
     int32_t backed_up;             /* 1: the state before the call is in sim->backup */
     int32_t was_cut;
     int32_t limited;
-    int32_t stopped;    /* max_steps used up */
+    int32_t stopped;    /* 1: max_steps used up; 2: ended by the caller's function of accepted steps */
     int32_t too_coarse; /* a step of length step_min was accepted above the error tolerance */
     int32_t arrived;    /* 1: the call's last step is done */
 } dmb_stepping;
@@ -34,6 +34,16 @@ void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_ste
  */
 int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report,
                          const dmb_stepping *stepping);
+
+/* After an accepted step: calls the caller's function of accepted steps. 1: it ends the call. */
+static inline int dmb_stepping_ends(dmb_sim *sim)
+{
+    return sim->on_step != NULL && sim->on_step(sim->on_step_context, sim) != 0;
+}
+/* The same within a call that goes on to `time` [s]: the reason to stop before it, or 0. */
+int32_t dmb_stepping_stops(dmb_sim *sim, double time, const dmb_stepping *stepping);
+/* Message of a call that the function of accepted steps ended. */
+void dmb_stepping_tell_end(dmb_sim *sim, uint32_t steps);
 
 /* Single error-controlled steps, for calls that stop elsewhere than dmb_sim_advance. */
 

@@ -251,12 +251,26 @@ static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
     return status;
 }
 
+/* Samples that are earlier than the last one would count the stresses in between twice. */
+static int32_t check_order(const dmb_fatigue *fatigue, const dmb_sim *sim)
+{
+    dmb_message why;
+    if (fatigue->samples == 0 || !(dmb_sim_time(sim) < fatigue->last)) return DMB_OK;
+    dmb_message_set(&why,
+                    "fatigue: time of the sim = %g s, must be >= %g s, that of the last sample; restore the fatigue of "
+                    "that time with the sim, or create another one",
+                    dmb_sim_time(sim), fatigue->last);
+    return dmb_sim_fail(sim, DMB_ERR_ORDER, "fatigue", why.text);
+}
+
 int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 {
     int32_t status = dmb_sim_check(sim);
     if (status < 0) return dmb_sim_failed(sim, "fatigue", status);
     if (fatigue == NULL) return dmb_sim_failed(sim, "fatigue", DMB_ERR_NULL);
     if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return dmb_sim_failed(sim, "fatigue", DMB_ERR_HANDLE);
+    status = check_order(fatigue, sim);
+    if (status < 0) return status;
     status = ask_all(fatigue, sim);
     if (status < 0) return dmb_sim_failed(sim, "fatigue", status);
     for (uint32_t i = 0; i < fatigue->place_count; i++) {

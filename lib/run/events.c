@@ -346,8 +346,9 @@ static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_s
     h.wanted = dmb_advance_first(sim);
     while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.told == 0) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
+        const double from = sim->clock->time;
         status = go(&h);
-        h.stepping.stopped = h.stepping.report.steps == sim->options.max_steps && sim->clock->time < time;
+        if (status >= 0 && sim->clock->time > from) h.stepping.stopped = dmb_stepping_stops(sim, time, &h.stepping);
     }
     status = dmb_stepping_end(sim, status, 0, report, &h.stepping);
     if (status < 0) return status;

@@ -135,6 +135,15 @@ int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *conte
     return dmb_sim_leave(sim, DMB_OK);
 }
 
+int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context)
+{
+    const int32_t status = dmb_sim_occupy(sim);
+    if (status < 0) return status;
+    sim->on_step = function;
+    sim->on_step_context = context;
+    return dmb_sim_leave(sim, DMB_OK);
+}
+
 /* ---- Options ----------------------------------------------------------------------------------------------------- */
 
 DMB_DECLARE_STRUCT(dmb_sim_options)

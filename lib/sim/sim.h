@@ -487,7 +487,9 @@ struct dmb_sim {
     struct dmb_own_scene *own; /* sim/own_scene: the scene of a sim with inputs; NULL: the model's scene */
     dmb_input_log input_log;
     const dmb_follower *follower; /* NULL: none */
-    dmb_chunks *chunks;           /* own_chunks: progress of the threads; may be written through a const sim */
+    dmb_step_fn on_step;          /* the caller's, after accepted steps; NULL: none; neither saved nor hashed */
+    void *on_step_context;
+    dmb_chunks *chunks; /* own_chunks: progress of the threads; may be written through a const sim */
     dmb_chunks own_chunks;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)

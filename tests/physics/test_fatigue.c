@@ -378,7 +378,8 @@ static void forged_counts(void **state)
             refused_ones++;
             assert_same_counts(fatigue, kept);
         } else {
-            must(dmb_fatigue_take(fatigue, s.sim), "take");
+            const int32_t status = dmb_fatigue_take(fatigue, s.sim);
+            if (status != DMB_ERR_ORDER) must(status, "take"); /* a last sample that was forged to be later */
             block[at] = before;
             must(dmb_fatigue_restore(fatigue, block, size), "restore");
         }

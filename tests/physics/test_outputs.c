@@ -358,7 +358,7 @@ static void what_is_not_there(void **state)
     scene r = make();
     const dmb_place body = dmb_station(r.body, 0, 0.0), nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
     const dmb_output fine = {dmb_station(r.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD, 0};
-    refused(&r, DMB_ERR_VALUE, 99, nothing, "output 0: quantity = 99, must be one");
+    refused(&r, DMB_ERR_VALUE, 99, nothing, "output 0: quantity = 99, must be a DMB_OUTPUT_ number");
     refused(&r, DMB_ERR_VALUE, -1, nothing, "quantity = -1");
     refused(&r, DMB_ERR_ID, DMB_OUTPUT_HOOK_LOAD, body, "hook_load");
     refused(&r, DMB_ERR_ID, DMB_OUTPUT_BIT_ADVANCE, body, "must be a bit");
@@ -588,6 +588,53 @@ static void texts(void **state)
     rig_close(&s);
 }
 
+/* So are windows, which go on after a reset, and fatigue, which goes on after a restore of its own. */
+static void in_windows_and_fatigue_after_a_restore(void **state)
+{
+    (void)state;
+    scene r = make();
+    const dmb_place place = dmb_station(r.string, 0, 0.5);
+    const dmb_output speed = {place, DMB_OUTPUT_VELOCITY_X, 0};
+    dmb_fatigue_options options = dmb_fatigue_options_default();
+    dmb_window_result result = dmb_window_result_default();
+    dmb_window *window;
+    dmb_fatigue *fatigue;
+    size_t size = 0, counted = 0;
+    options.curve_stress = 1e8;
+    options.slope = 5.0;
+    must(&r.s, dmb_window_create(r.s.sim, NULL, &speed, 1, &window));
+    must(&r.s, dmb_fatigue_create(r.s.sim, &options, &place, 1, &fatigue));
+    must(&r.s, dmb_window_take(window, r.s.sim));
+    must(&r.s, dmb_fatigue_take(fatigue, r.s.sim));
+    must(&r.s, dmb_sim_snapshot_size(r.s.sim, &size));
+    must(&r.s, dmb_fatigue_snapshot_size(fatigue, &counted));
+    void *kept = malloc(size), *counts = malloc(counted);
+    assert_true(kept != NULL && counts != NULL);
+    must(&r.s, dmb_sim_snapshot(r.s.sim, kept, size));
+    must(&r.s, dmb_fatigue_snapshot(fatigue, counts, counted));
+    take_steps(&r.s, 1e-3, 2);
+    must(&r.s, dmb_window_take(window, r.s.sim));
+    must(&r.s, dmb_fatigue_take(fatigue, r.s.sim));
+    must(&r.s, dmb_sim_restore(r.s.sim, kept, size));
+    assert_int_equal(dmb_window_take(window, r.s.sim), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_sim_message(r.s.sim), "reset the window"));
+    must(&r.s, dmb_window_get(window, 0, &result));
+    assert_int_equal(result.samples, 2);
+    assert_int_equal(dmb_fatigue_take(fatigue, r.s.sim), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_sim_message(r.s.sim), "restore the fatigue"));
+    must(&r.s, dmb_window_reset(window));
+    must(&r.s, dmb_window_take(window, r.s.sim));
+    must(&r.s, dmb_fatigue_restore(fatigue, counts, counted));
+    must(&r.s, dmb_fatigue_take(fatigue, r.s.sim)); /* a second one at that time */
+    must(&r.s, dmb_window_get(window, 0, &result));
+    assert_int_equal(result.samples, 1);
+    free(kept);
+    free(counts);
+    dmb_window_destroy(&window);
+    dmb_fatigue_destroy(&fatigue);
+    destroy(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -598,6 +645,7 @@ int main(void)
         cmocka_unit_test(without_the_ledger),
         cmocka_unit_test(in_tables),
         cmocka_unit_test(in_tables_after_a_restore),
+        cmocka_unit_test(in_windows_and_fatigue_after_a_restore),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

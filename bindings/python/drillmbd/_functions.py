@@ -216,6 +216,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_set_input": (c_int32, c_void_p, Id, c_double,),
     "dmb_sim_set_inputs": (c_int32, c_void_p, POINTER(Id), POINTER(c_double), c_uint32,),
     "dmb_sim_set_joint": (c_int32, c_void_p, Id, c_int32,),
+    "dmb_sim_set_on_step": (c_int32, c_void_p, STEP_FN, c_void_p,),
     "dmb_sim_set_progress": (c_int32, c_void_p, PROGRESS_FN, c_void_p,),
     "dmb_sim_snapshot": (c_int32, c_void_p, c_void_p, c_size_t,),
     "dmb_sim_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
@@ -328,7 +329,7 @@ FUNCTION_DOCS = {
     "dmb_fatigue_snapshot_size":
         "The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places continues bit for bit, in another process too. Allocate nothing. Errors, which change nothing: ERR_NULL, _HANDLE, _VALUE (another size; bytes that are no counts of these options). O(places x points x classes).",
     "dmb_fatigue_take":
-        "Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted. Another sim of the same model may be given. Allocates nothing. O(places x points).",
+        "Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted. Another sim of the same model may be given. ERR_ORDER before the time of the last sample, as after a restore: restore the fatigue too. Allocates nothing. O(places x points).",
     "dmb_has":
         "1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there. ERR_VALUE: none of the above. Thread-safe.",
     "dmb_last_error":
@@ -511,6 +512,8 @@ FUNCTION_DOCS = {
         "From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are adapted to jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where a bound was taken instead. Setting a value again does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR. O(elements).",
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED, the message gives the change); that energy, and the energy of springs and stops that are disconnected or connected, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate, a coupling keeps its offset, so a gear that has slipped cannot close. A joint that a motion drive moves cannot be locked. Errors, with nothing changed: ERR_ID, _VALUE, _GEOMETRY (parts or couplings do not fit within 1e-6 m and rad, or axes point against each other; a drive's speed cannot be reached), _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
+    "dmb_sim_set_on_step":
+        "From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and each of dmb_sim_advance and _advance_to_event that is accepted for good: not after parts of a divided step, nor after steps that are repeated to locate an event. Nonzero before the end of the call: NOTE_STOPPED. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors as of dmb_sim_set_progress.",
     "dmb_sim_set_progress":
         "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK is one interval. Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state); dmb_sim_advance ends with NOTE_CANCELLED in its last accepted state. A signal handler or another thread sets a flag that the function reads. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
     "dmb_sim_snapshot_size":

@@ -9,9 +9,10 @@ from ctypes import c_void_p, cast
 from typing import Any
 
 from ._library import lib as _lib
-from ._structs import PROGRESS_FN
+from ._structs import PROGRESS_FN, STEP_FN
 
 _NOBODY = cast(c_void_p(), PROGRESS_FN)
+_NO_STEP = cast(c_void_p(), STEP_FN)
 
 
 class Interrupts:
@@ -69,12 +70,29 @@ class Teller:
                 return 1
 
         self.call = PROGRESS_FN(call)
+        self.on_step: Callable[[float], Any] | None = None
+
+        def stepped(_context: Any, sim: Any) -> int:
+            try:
+                return 1 if self.on_step is not None and self.on_step(float(_lib.dmb_sim_time(sim))) else 0
+            except BaseException as error:  # must not unwind through C
+                self.raised = error
+                return 1
+
+        self.step_call = STEP_FN(stepped)
 
     def set(self, handle: c_void_p, function: Callable[[float], Any] | None) -> int:
         """The status of setting this function."""
         status = int(_lib.dmb_sim_set_progress(handle, _NOBODY if function is None else self.call, None))
         if status >= 0:
             self.function = function
+        return status
+
+    def set_on_step(self, handle: c_void_p, function: Callable[[float], Any] | None) -> int:
+        """The status of setting this function of accepted steps."""
+        status = int(_lib.dmb_sim_set_on_step(handle, _NO_STEP if function is None else self.step_call, None))
+        if status >= 0:
+            self.on_step = function
         return status
 
     def rethrow(self) -> None:

@@ -2224,6 +2224,10 @@ PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
 PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen. Returns 0, or nonzero to end the call."
 
 
+STEP_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p)
+STEP_FN.__doc__ = "Sees the sim after an accepted step and may query, record and save it, but not change it. Returns 0, or nonzero to end the call."
+
+
 class Place(Record):
     c_name, about = "dmb_place", "Frozen. A place on a part: a station of a string, or the reference point of a body. Made by dmb_station."
     part: Id

@@ -13,7 +13,7 @@ class Status(IntEnum):
     NOTE_STEP_CUT: done; the step was divided to converge
     NOTE_WORK_LIMITED: done; the bounded number of iterations was used up above the tolerance
     NOTE_PROJECTED: done; poses or velocities were projected onto the allowed motion
-    NOTE_STOPPED: done; stopped early at the bound on steps
+    NOTE_STOPPED: done; stopped early: bound on steps, or function of accepted steps
     NOTE_FULL: done; the caller's memory is full, nothing more is recorded
     NOTE_TOLERANCE: done; the smallest step allowed was too long for the error tolerance
     NOTE_UNSTABLE: done; the equilibrium that was found is not stable

@@ -102,6 +102,18 @@ class Sim(Handle, analysis.Analyses):
     def on_progress(self, function: Callable[[float], Any] | None) -> None:
         check(self._teller.set(self._handle, function))
 
+    @property
+    @mirrors("dmb_sim_set_on_step")
+    def on_step(self) -> Callable[[float], Any] | None:
+        """function(time): called after each accepted step of step, steps, advance and advance_to_event; it may query and
+        record the sim. It ends the call by returning True (NOTE_STOPPED) or by raising, which comes out of the call. None:
+        no callback (default)."""
+        return self._teller.on_step
+
+    @on_step.setter
+    def on_step(self, function: Callable[[float], Any] | None) -> None:
+        check(self._teller.set_on_step(self._handle, function))
+
     def _check(self, status: int) -> int:
         self._teller.rethrow()  # what the progress function raised
         if is_closed(self._handle, status):
