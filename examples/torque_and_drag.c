@@ -31,23 +31,23 @@ static int32_t describe(dmb_model *model)
 static void table(dmb_sim *sim)
 {
     const double depths[4] = {99.0, 199.0, 299.0, 399.0};
-    dmb_operation operations[DMB_OPERATION_COUNT];
-    dmb_torque_drag_row rows[4 * DMB_OPERATION_COUNT] = {dmb_torque_drag_row_default()};
+    dmb_operation operations[(DMB_OPERATION_BACK_REAM + 1)];
+    dmb_torque_drag_row rows[4 * (DMB_OPERATION_BACK_REAM + 1)] = {dmb_torque_drag_row_default()};
     dmb_torque_drag_options options = dmb_torque_drag_options_default();
     options.depths = depths;
     options.depth_count = 4;
-    for (int32_t i = 0; i < DMB_OPERATION_COUNT; i++) {
+    for (int32_t i = 0; i < (DMB_OPERATION_BACK_REAM + 1); i++) {
         operations[i] = dmb_operation_default();
         (void)dmb_operation_usual(i, &operations[i]);
     }
     operations[DMB_OPERATION_DRILL].weight_on_bit = operations[DMB_OPERATION_SLIDE].weight_on_bit = 15000.0;
     operations[DMB_OPERATION_DRILL].torque_on_bit = 600.0;
-    if (dmb_analysis_torque_drag(sim, &options, operations, DMB_OPERATION_COUNT, rows) < 0) return;
+    if (dmb_analysis_torque_drag(sim, &options, operations, (DMB_OPERATION_BACK_REAM + 1), rows) < 0) return;
     printf("%-10s %9s %14s %13s %17s %15s\n", "operation", "depth [m]", "hook load [kN]", "torque [N m]",
            "helix, share [-]", "yield share [-]");
-    for (int32_t i = 0; i < 4 * DMB_OPERATION_COUNT; i++)
-        printf("%-10s %9.0f %14.3f %13.1f %17.4f %15.4f\n", dmb_operation_name(i % DMB_OPERATION_COUNT), rows[i].depth,
-               1e-3 * rows[i].hook_load, rows[i].torque, rows[i].helical_share, rows[i].yield_share);
+    for (int32_t i = 0; i < 4 * (DMB_OPERATION_BACK_REAM + 1); i++)
+        printf("%-10s %9.0f %14.3f %13.1f %17.4f %15.4f\n", dmb_operation_name(i % (DMB_OPERATION_BACK_REAM + 1)),
+               rows[i].depth, 1e-3 * rows[i].hook_load, rows[i].torque, rows[i].helical_share, rows[i].yield_share);
 }
 
 static void explain(dmb_sim *sim, double pull)

@@ -906,8 +906,7 @@ enum {
     DMB_OPERATION_ROTATE = 2,    /* turned off bottom */
     DMB_OPERATION_DRILL = 3,     /* turned and fed, with load and torque on the bit */
     DMB_OPERATION_SLIDE = 4,     /* fed without turning the string, with load and the motor's torque on the bit */
-    DMB_OPERATION_BACK_REAM = 5, /* turned and pulled */
-    DMB_OPERATION_COUNT = 6
+    DMB_OPERATION_BACK_REAM = 5  /* turned and pulled */
 };
 typedef struct dmb_operation {
     uint32_t struct_size;
@@ -921,7 +920,7 @@ DMB_SIZED_STRUCT(dmb_operation)
 /* Usual speeds of an operation DMB_OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads
  * on the bit 0, to be filled in. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE. */
 DMB_API int32_t dmb_operation_usual(int32_t operation, dmb_operation *out);
-/* "pick-up", "slack-off", ...; NULL for a number that is none. */
+/* "pick-up", "slack-off", ...; NULL for a number that is none: they are numbered from 0 without gaps. */
 DMB_API const char *dmb_operation_name(int32_t operation);
 
 typedef struct dmb_torque_drag_options {

@@ -301,7 +301,6 @@ enum {
     DMB_PROFILE_MOMENT_Z = 33,             /* [N m] bending about z, section frame */
     DMB_PROFILE_GAP = 34,                  /* [m] of the nearest contact point to the wall, < 0 when penetrating; NaN
                                               without one */
-    DMB_PROFILE_COUNT = 35
 };
 typedef struct dmb_profile {
     uint32_t struct_size;
@@ -310,7 +309,7 @@ typedef struct dmb_profile {
     const double *distance;    /* [m] of the stations along the string, 0 .. its length, any order, shape
                                   (station_count); NULL: spread evenly from the rig end to the far end */
     const int32_t *quantities; /* DMB_PROFILE_..., shape (quantity_count) */
-    uint32_t quantity_count;   /* [-] 1 .. DMB_PROFILE_COUNT, repetitions allowed */
+    uint32_t quantity_count;   /* [-] 1 .. the number of them; repetitions allowed */
     uint32_t reserved;
     double *values;           /* the caller's; value of quantity q at station i is values[i * station_stride + q *
                                  quantity_stride] */
@@ -326,7 +325,8 @@ DMB_SIZED_STRUCT(dmb_profile)
  * joints. Errors: DMB_ERR_VALUE (quantity, station off the string, strides that overlap), DMB_ERR_NOT_FINITE,
  * DMB_ERR_ID; nothing is written then. O(station_count). */
 DMB_API int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile);
-/* Name of a quantity ("axial_force") and its unit in *unit (may be NULL); NULL for a number that is none. */
+/* Name of a quantity ("axial_force") and its unit in *unit (may be NULL); NULL for a number that is none: they are
+ * numbered from 0 without gaps. */
 DMB_API const char *dmb_profile_name(int32_t quantity, const char **unit);
 
 /* ---- Recorder ----------------------------------------------------------------------------------------------------
@@ -352,8 +352,7 @@ enum {
     DMB_OUTPUT_DRIVE_FORCE = 16,    /* [N, N m] place.part is a drive */
     DMB_OUTPUT_DRIVE_SPEED = 17,    /* [m/s, rad/s] place.part is a drive */
     DMB_OUTPUT_BIT_WEIGHT = 18,     /* [N] place.part is a bit, bottom-hole load included */
-    DMB_OUTPUT_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
-    DMB_OUTPUT_COUNT = 20           /* of these; ask.h continues from number 100 */
+    DMB_OUTPUT_ENERGY_ERROR = 19    /* [-] of the ledger; place is ignored */
 };
 
 typedef struct dmb_window dmb_window; /* ask.h */

@@ -787,7 +787,7 @@ DMB_API int32_t dmb_model_place_at_end(dmb_model *model, dmb_id string, double l
 
 /* ---- Inputs ----------------------------------------------------------------------------------------------------- */
 /* clang-format off */
-enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 14 of wall and environment, >= 0 */
+enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 13 of wall and environment, >= 0 */
     DMB_TARGET_SET_POINT = 0, /* of a drive, instead of its time function; its excitation continues */
     DMB_TARGET_GAIN = 1, DMB_TARGET_INTEGRAL_GAIN = 2, /* [N s/m, N m s], [N/m, N m] >= 0 */
     DMB_TARGET_LIMIT_LOW = 3, DMB_TARGET_LIMIT_HIGH = 4, /* [N, N m] the first below the second */
@@ -796,8 +796,7 @@ enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 14
     DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */
     DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
     DMB_TARGET_STUCK = 12, /* [-] 1: a place is stuck from now on, 0: it is free */
-    DMB_TARGET_COUNT = 13, /* of the targets above, for programs that were built before others were added */
-    DMB_TARGET_FLOW_RATE = 14 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
+    DMB_TARGET_FLOW_RATE = 13 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
 };
 /* clang-format on */
 /* Joint states (active, locked, open) are no inputs: dmb_sim_set_joint changes speeds by an impulse and may fail for

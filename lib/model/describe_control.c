@@ -148,8 +148,6 @@ static void relate_input(dmb_check *check, dmb_model *model, const void *part)
 {
     const dmb_input_def *def = part;
     check_has_name(check, def->name, "must be there: inputs are looked up by it");
-    if (check->status >= 0 && def->target == DMB_TARGET_COUNT)
-        dmb_check_fail(check, DMB_ERR_VALUE, "target", def->target, "a DMB_TARGET_..., of which this is none");
     if (check->status >= 0) check_target(check, model, def);
     if (check->status < 0) return;
     check_apart(check, model, def);

@@ -94,9 +94,10 @@ void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, d
                   const char *what)
 {
     if (check->status < 0 || dmb_model_part_index(model, id, kind) != DMB_NONE) return;
+    const int foreign = !dmb_id_is_none(id) && id.generation != model->stamp;
     check->status = DMB_ERR_ID;
-    dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field, id.index,
-                    id.generation, what);
+    dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model%s", check->part, field, id.index,
+                    id.generation, what, foreign ? "; another model gave out this id: take one of this model" : "");
 }
 
 void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,

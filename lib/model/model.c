@@ -1,6 +1,7 @@
 /* Creation and destruction of a model, its ids and message. */
 #include "model/model.h"
 
+#include "base/build.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "drillmbd/scene.h"
@@ -30,8 +31,16 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
     *model = NULL;
     if (options != NULL) status = dmb_model_options_read(&read, options);
     if (status >= 0) status = dmb_allocator_copy(&allocator, read.allocator);
+    if (status == DMB_ERR_NULL)
+        return dmb_failure(NULL, NULL, status, "model",
+                           "model: allocator has no function allocate or release, must have both; "
+                           "dmb_allocator_default and dmb_pool_allocator fill them");
     if (status < 0) return dmb_failed("model", status);
     created = dmb_allocate(&allocator, sizeof *created);
+    if (created == NULL && read.allocator == NULL && !DMB_WITH_HEAP)
+        return dmb_failure(NULL, NULL, DMB_ERR_NO_MEMORY, "model",
+                           "model: allocator is NULL, must be given: this build has no heap; make one by "
+                           "dmb_pool_allocator");
     if (created == NULL) return dmb_failed("model", DMB_ERR_NO_MEMORY);
     created->magic = DMB_HANDLE_MODEL;
     created->stamp = dmb_new_stamp();

@@ -98,10 +98,11 @@ static void refuse_used(dmb_check *check, const char *word, uint32_t index, cons
 /* The 0 at the end, and the characters before it. */
 static void check_text(dmb_check *check, const char *name)
 {
-    dmb_message bound;
-    if (memchr(name, '\0', DMB_NAME_SIZE) == NULL) {
-        dmb_message_set(&bound, "characters, at most %d, and a 0", DMB_NAME_SIZE - 1);
-        dmb_check_fail(check, DMB_ERR_VALUE, "name", DMB_NAME_SIZE, bound.text);
+    if (check->status >= 0 && memchr(name, '\0', DMB_NAME_SIZE) == NULL) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message,
+                        "%s: name = %d characters without an end, must be at most %d and a 0 behind them; shorten it",
+                        check->part, (int)DMB_NAME_SIZE, DMB_NAME_SIZE - 1);
     } else if (check->status >= 0 && !dmb_is_text(name, DMB_NAME_SIZE)) {
         check->status = DMB_ERR_VALUE;
         dmb_message_set(check->message, "%s: name is no text, must be UTF-8 without control characters", check->part);

@@ -139,7 +139,7 @@ static int32_t read_structs(const dmb_profile_recorder *given, dmb_profile_recor
     if (status < 0) return status;
     dmb_check_pointer(&check, "quantities of the profile", profile->quantities);
     dmb_check_count(&check, "station_count of the profile", profile->station_count, 1, STATIONS_MAX);
-    dmb_check_count(&check, "quantity_count of the profile", profile->quantity_count, 1, DMB_PROFILE_COUNT);
+    dmb_check_count(&check, "quantity_count of the profile", profile->quantity_count, 1, DMB_PROFILE_QUANTITIES);
     dmb_check_at_least(&check, "interval", r->interval, 0.0);
     if (check.status == DMB_OK) check_table(&check, r->table, r->row_count, r->capacity, width_of(profile));
     return check.status;

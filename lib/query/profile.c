@@ -82,7 +82,7 @@ typedef struct station {
     dmb_material_point point;
     double diameters[2];        /* [m] outer and inner, of the tool joint where the station is in one */
     double tangent[3], bend[3]; /* of the hole's axis; 0 without a hole */
-    double values[DMB_PROFILE_COUNT];
+    double values[DMB_PROFILE_QUANTITIES];
 } station;
 
 static void pose_values(station *at)
@@ -340,7 +340,7 @@ static int32_t check_quantities(const dmb_profile *profile, int32_t *groups)
 {
     *groups = 0;
     if (profile->quantities == NULL || profile->values == NULL) return DMB_ERR_NULL;
-    if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_COUNT) return DMB_ERR_VALUE;
+    if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_QUANTITIES) return DMB_ERR_VALUE;
     for (uint32_t i = 0; i < profile->quantity_count; i++) {
         if (dmb_profile_groups(profile->quantities[i]) < 0) return DMB_ERR_VALUE;
         *groups |= dmb_profile_groups(profile->quantities[i]);
@@ -387,7 +387,7 @@ static int32_t read_station(station *at, double distance, int32_t groups)
 {
     const int32_t status = dmb_material_point_of(at->sim, at->place, &at->point);
     if (status < 0) return status;
-    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at->values[k] = (double)NAN;
+    for (int k = 0; k < DMB_PROFILE_QUANTITIES; k++) at->values[k] = (double)NAN;
     at->values[DMB_PROFILE_DISTANCE] = distance;
     dmb_pipe_diameters(&at->run->def, in_tool_joint(at), at->diameters);
     return fill(at, groups);

@@ -292,7 +292,7 @@ enum { NAME_COUNT = sizeof names / sizeof names[0] };
 static size_t place_of(int32_t quantity)
 {
     size_t low = 0, high = NAME_COUNT;
-    if (quantity >= 0 && quantity < DMB_OUTPUT_COUNT) return (size_t)quantity;
+    if (quantity >= 0 && quantity <= DMB_OUTPUT_ENERGY_ERROR) return (size_t)quantity;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (names[middle].quantity < quantity)
@@ -340,7 +340,7 @@ int32_t dmb_output_next(int32_t quantity)
 static const struct quantity {
     const char *name, *unit;
     int32_t groups;
-} quantities_of[DMB_PROFILE_COUNT] = {
+} quantities_of[DMB_PROFILE_QUANTITIES] = {
     [DMB_PROFILE_DISTANCE] = {"distance", "m", DMB_TAKES_STATION},
     [DMB_PROFILE_DEPTH] = {"depth", "m", DMB_TAKES_POSE},
     [DMB_PROFILE_X] = {"x", "m", DMB_TAKES_POSE},
@@ -382,7 +382,7 @@ static const struct quantity {
 
 static int is_quantity(int32_t quantity)
 {
-    return quantity >= 0 && quantity < DMB_PROFILE_COUNT;
+    return quantity >= 0 && quantity < DMB_PROFILE_QUANTITIES;
 }
 
 int32_t dmb_profile_groups(int32_t quantity)

@@ -261,6 +261,9 @@ typedef struct dmb_output_entry {
     int32_t place; /* DMB_AT_... */
 } dmb_output_entry;
 
+/* Quantities of a profile are numbered without gaps. */
+enum { DMB_PROFILE_QUANTITIES = DMB_PROFILE_GAP + 1 };
+
 /* Returns the entry of a quantity; NULL if it is unknown. */
 const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 

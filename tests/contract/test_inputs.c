@@ -331,7 +331,7 @@ static void bad_definitions(void **state)
     assert_int_equal(refused(r.model, &def), DMB_ERR_VALUE);
     def.low = -1e30, def.high = 1e30, def.rate_limit = 1.0;
     assert_int_equal(refused(r.model, &def), DMB_ERR_UNSUPPORTED);
-    def.rate_limit = 0.0, def.target = DMB_TARGET_COUNT;
+    def.rate_limit = 0.0, def.target = DMB_TARGET_FLOW_RATE + 1;
     assert_int_equal(refused(r.model, &def), DMB_ERR_VALUE);
     must(dmb_model_clear_refused(r.model));
     must(dmb_model_compile(r.model, NULL));

@@ -295,7 +295,7 @@ static void names(void **state)
     (void)state;
     memset(joint.name, 'x', sizeof joint.name);
     assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_ERR_VALUE);
-    expect_message(s.model, "joint 2: ", "name = 24, must be characters, at most 23, and a 0");
+    expect_message(s.model, "joint 2: ", "name = 24 characters without an end, must be at most 23 and a 0 behind them");
     memset(coupling.name, 'x', sizeof coupling.name);
     assert_int_equal(dmb_model_add_coupling(s.model, &coupling, NULL), DMB_ERR_VALUE);
     expect_message(s.model, "coupling 0: ", "name");

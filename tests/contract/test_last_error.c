@@ -158,6 +158,45 @@ static void questions_have_messages(void **state)
     close_scene(&s);
 }
 
+static void *no_memory(void *context, size_t size, size_t alignment)
+{
+    (void)context, (void)size, (void)alignment;
+    return NULL;
+}
+
+/* Allocators without a function, names without an end and ids of another model have messages of their own. */
+static void common_mistakes_have_messages(void **state)
+{
+    dmb_model_options options = dmb_model_options_default();
+    dmb_allocator allocator = dmb_allocator_default();
+    dmb_model *none = NULL;
+    dmb_load_def load = dmb_load_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
+    scene s, other;
+    (void)state;
+    allocator.release = NULL;
+    options.allocator = &allocator;
+    assert_int_equal(dmb_model_create(&options, &none), DMB_ERR_NULL);
+    assert_non_null(strstr(last().message, "allocator has no function allocate or release"));
+    allocator = dmb_allocator_default();
+    allocator.allocate = no_memory;
+    assert_int_equal(dmb_model_create(&options, &none), DMB_ERR_NO_MEMORY);
+    assert_null(none);
+    describe(&s);
+    open_scene(&other);
+    bit.string = other.string;
+    assert_int_equal(dmb_model_add_bit(s.model, &bit, NULL), DMB_ERR_ID);
+    dmb_error e = failed(&s, DMB_ERR_ID, DMB_ERR_ID, dmb_model_message(s.model));
+    assert_string_equal(e.field, "string");
+    assert_non_null(strstr(e.message, "another model gave out this id: take one of this model"));
+    memset(load.name, 'x', sizeof load.name);
+    assert_int_equal(dmb_model_add_load(s.model, &load, NULL), DMB_ERR_VALUE);
+    e = failed(&s, DMB_ERR_VALUE, DMB_ERR_VALUE, dmb_model_message(s.model));
+    assert_non_null(strstr(e.message, "name = 24 characters without an end, must be at most 23"));
+    close_scene(&other);
+    close_scene(&s);
+}
+
 static void recorders_and_files_have_messages(void **state)
 {
     dmb_output output;
@@ -245,9 +284,13 @@ static void threads_have_their_own(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_of_a_refusal),      cmocka_unit_test(parts_of_a_sentence),
-        cmocka_unit_test(questions_have_messages), cmocka_unit_test(recorders_and_files_have_messages),
-        cmocka_unit_test(calls_without_an_object), cmocka_unit_test(threads_have_their_own),
+        cmocka_unit_test(parts_of_a_refusal),
+        cmocka_unit_test(parts_of_a_sentence),
+        cmocka_unit_test(questions_have_messages),
+        cmocka_unit_test(recorders_and_files_have_messages),
+        cmocka_unit_test(common_mistakes_have_messages),
+        cmocka_unit_test(calls_without_an_object),
+        cmocka_unit_test(threads_have_their_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

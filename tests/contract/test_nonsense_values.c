@@ -634,7 +634,7 @@ static void recorders_that_are_none_are_refused(void **state)
     BAD(capacity, UINT64_MAX, DMB_ERR_VALUE);
 #undef BAD
     a.recorder = good;
-    a.outputs[2].quantity = DMB_OUTPUT_COUNT;
+    a.outputs[2].quantity = (DMB_OUTPUT_ENERGY_ERROR + 1);
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);
     a.outputs[2].quantity = -1;
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);

@@ -34,7 +34,7 @@ static void told_where_described(void **state)
     must(dmb_model_add_body(model, &body, &id));
     memset(body.name, 'x', sizeof body.name);
     assert_int_equal(dmb_model_add_body(model, &body, NULL), DMB_ERR_VALUE);
-    expect(dmb_model_message(model), "body 1: name = 24, must be characters, at most 23");
+    expect(dmb_model_message(model), "body 1: name = 24 characters without an end, must be at most 23");
     strcpy(drive.name, "pump");
     drive.part = id;
     drive.time_function = id; /* a body */

@@ -168,16 +168,16 @@ static void recorder(void **state)
     rig r = rig_of(&plain_rig);
     dmb_sim *sim = rig_sim(&r);
     dmb_recorder recorder = dmb_recorder_default();
-    dmb_output outputs[DMB_OUTPUT_COUNT];
-    double table[4 * (1 + DMB_OUTPUT_COUNT)], before[4 * (1 + DMB_OUTPUT_COUNT)];
+    dmb_output outputs[(DMB_OUTPUT_ENERGY_ERROR + 1)];
+    double table[4 * (1 + (DMB_OUTPUT_ENERGY_ERROR + 1))], before[4 * (1 + (DMB_OUTPUT_ENERGY_ERROR + 1))];
     memset(table, 0, sizeof table);
-    for (int32_t i = 0; i < DMB_OUTPUT_COUNT; i++) {
+    for (int32_t i = 0; i < (DMB_OUTPUT_ENERGY_ERROR + 1); i++) {
         const int is_drive = i == DMB_OUTPUT_DRIVE_FORCE || i == DMB_OUTPUT_DRIVE_SPEED;
         outputs[i].place = dmb_station(is_drive ? r.torque : i == DMB_OUTPUT_BIT_WEIGHT ? r.bit : r.string, 1, 0.25);
         outputs[i].quantity = i;
         outputs[i].reserved = 0;
     }
-    recorder.output_count = DMB_OUTPUT_COUNT;
+    recorder.output_count = (DMB_OUTPUT_ENERGY_ERROR + 1);
     recorder.outputs = outputs;
     recorder.table = table;
     recorder.capacity = 4;
@@ -190,11 +190,11 @@ static void recorder(void **state)
     assert_int_equal(recorder.row_count, 4);
     for (int i = 0; i < 4; i++) {
         const double wanted[] = {0.0, 3e-3, 5e-3, 8e-3};
-        assert_true(fabs(table[i * (1 + DMB_OUTPUT_COUNT)] - wanted[i]) < 1e-12);
+        assert_true(fabs(table[i * (1 + (DMB_OUTPUT_ENERGY_ERROR + 1))] - wanted[i]) < 1e-12);
     }
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_NOTE_FULL);
     recorder.row_count = 2;
-    outputs[DMB_OUTPUT_COUNT - 1].quantity = DMB_OUTPUT_COUNT;
+    outputs[(DMB_OUTPUT_ENERGY_ERROR + 1) - 1].quantity = (DMB_OUTPUT_ENERGY_ERROR + 1);
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_VALUE);
     outputs[3].place.part = r.feed;
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_ID);

@@ -161,8 +161,8 @@ static inline void act_rows(dmb_sim *sim, random_scene *c)
     enum { ROWS = 2, WIDTH = 1 + 2 * 2 };
     dmb_profile profile = dmb_profile_default();
     dmb_profile_recorder recorder = dmb_profile_recorder_default();
-    const int32_t quantities[2] = {(int32_t)draw_below(&c->source, DMB_PROFILE_COUNT),
-                                   (int32_t)draw_below(&c->source, DMB_PROFILE_COUNT)};
+    const int32_t quantities[2] = {(int32_t)draw_below(&c->source, (DMB_PROFILE_GAP + 1)),
+                                   (int32_t)draw_below(&c->source, (DMB_PROFILE_GAP + 1))};
     double table[ROWS * WIDTH + 1];
     if (c->strings > 0) profile.string = c->string[draw_below(&c->source, c->strings)];
     profile.station_count = profile.quantity_count = 2;

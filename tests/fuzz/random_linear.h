@@ -259,7 +259,7 @@ static inline void act_torque_drag(dmb_sim *sim, random_scene *c)
     double along[4][3], friction = 0.0;
     const double depths[2] = {draw_number(s, 0.0, 20.0), draw_number(s, 0.0, 20.0)};
     const uint64_t before = hash_of(sim);
-    must_be_known(dmb_operation_usual((int32_t)draw_choice(s, DMB_OPERATION_COUNT), &operation));
+    must_be_known(dmb_operation_usual((int32_t)draw_choice(s, (DMB_OPERATION_BACK_REAM + 1)), &operation));
     operation.weight_on_bit = draw_chance(s, 128) ? draw_size(s, 1.0, 1e6) : 0.0;
     operation.torque_on_bit = draw_chance(s, 128) ? draw_size(s, 1.0, 1e5) : 0.0;
     draw_spoil(s, &operation.axial_speed, 4);

@@ -96,7 +96,7 @@ static inline void draw_sim_input(random_scene *c, dmb_id stuck)
     dmb_id id = {0, 0};
     const dmb_id none = {0, 0};
     if (c->inputs >= DRAW_INPUTS) return;
-    def.target = (int32_t)draw_below(s, (has_more(c) ? DMB_TARGET_FLOW_RATE : DMB_TARGET_COUNT) + 1); /* 13 is none */
+    def.target = (int32_t)draw_below(s, DMB_TARGET_FLOW_RATE + (has_more(c) ? 2 : 1)); /* 14 is none */
     def.name[0] = (char)('a' + c->inputs);
     def.part = def.target == DMB_TARGET_STUCK                         ? stuck
                : def.target <= DMB_TARGET_LIMIT_HIGH && c->drives > 0 ? c->drive[0]

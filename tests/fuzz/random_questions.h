@@ -33,7 +33,7 @@ static inline void ask_profile(dmb_sim *sim, random_scene *c)
     double values[GUARD + STATIONS * QUANTITIES], distance[STATIONS];
     int32_t quantities[QUANTITIES];
     for (int i = 0; i < GUARD + STATIONS * QUANTITIES; i++) values[i] = 0.5;
-    for (int i = 0; i < QUANTITIES; i++) quantities[i] = (int32_t)draw_below(s, DMB_PROFILE_COUNT + 1);
+    for (int i = 0; i < QUANTITIES; i++) quantities[i] = (int32_t)draw_below(s, (DMB_PROFILE_GAP + 1) + 1);
     for (int i = 0; i < STATIONS; i++) distance[i] = draw_number(s, 0.0, 5.0);
     if (c->strings > 0) profile.string = c->string[draw_below(s, c->strings)];
     profile.station_count = 1 + draw_below(s, STATIONS);

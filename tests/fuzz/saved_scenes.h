@@ -184,7 +184,7 @@ static inline void saved_input(saved_scene *s, int32_t target, dmb_id part)
 static inline void saved_inputs(saved_scene *s, dmb_id bit, dmb_id load, dmb_id stuck)
 {
     const dmb_id none = {0, 0};
-    for (int32_t target = 0; target < DMB_TARGET_COUNT; target++) {
+    for (int32_t target = 0; target < DMB_TARGET_FLOW_RATE; target++) {
         const dmb_id part = target <= DMB_TARGET_LIMIT_HIGH    ? s->turning
                             : target == DMB_TARGET_LOAD_FACTOR ? load
                             : target == DMB_TARGET_BIT_LOAD    ? bit

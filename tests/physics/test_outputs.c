@@ -321,7 +321,7 @@ static void names_are_numbers(void **state)
         assert_int_equal(back, q);
         last = q;
     }
-    for (int32_t q = 0; q < DMB_PROFILE_COUNT; q++) {
+    for (int32_t q = 0; q < (DMB_PROFILE_GAP + 1); q++) {
         const char *wanted, *name = dmb_output_name(DMB_OUTPUT_PROFILE + q, &unit);
         char text[64];
         snprintf(text, sizeof text, "profile_%s", dmb_profile_name(q, &wanted));
@@ -331,7 +331,7 @@ static void names_are_numbers(void **state)
     assert_string_equal(dmb_output_name(DMB_OUTPUT_BIT_SPEED, &unit), "bit_speed");
     assert_string_equal(unit, "rad/s");
     assert_string_equal(dmb_output_name(DMB_OUTPUT_JOINT_ACTION + DMB_RY, NULL), "joint_action_ry");
-    assert_null(dmb_output_name(DMB_OUTPUT_COUNT, &unit));
+    assert_null(dmb_output_name((DMB_OUTPUT_ENERGY_ERROR + 1), &unit));
     assert_null(unit);
     assert_null(dmb_output_name(INT32_MAX, NULL));
     assert_null(dmb_output_name(INT32_MIN, NULL));

@@ -157,8 +157,8 @@ enum { STATIONS = 173 };
 static void same_as_single_queries(void **state)
 {
     scene s = describe(24);
-    double rows[STATIONS][DMB_PROFILE_COUNT], columns[DMB_PROFILE_COUNT][STATIONS], wall = 0.0;
-    int32_t all[DMB_PROFILE_COUNT];
+    double rows[STATIONS][(DMB_PROFILE_GAP + 1)], columns[(DMB_PROFILE_GAP + 1)][STATIONS], wall = 0.0;
+    int32_t all[(DMB_PROFILE_GAP + 1)];
     dmb_profile profile = dmb_profile_default();
     dmb_contact_total total = dmb_contact_total_default();
     (void)state;
@@ -168,10 +168,10 @@ static void same_as_single_queries(void **state)
     s.pipe.eccentricity = 0.002;
     compile(&s, 1);
     for (int i = 0; i < 50; i++) must(dmb_sim_step(s.sim, 1e-3, NULL), dmb_sim_message(s.sim));
-    for (int32_t q = 0; q < DMB_PROFILE_COUNT; q++) all[q] = q;
+    for (int32_t q = 0; q < (DMB_PROFILE_GAP + 1); q++) all[q] = q;
     profile.station_count = STATIONS;
     profile.quantities = all;
-    profile.quantity_count = DMB_PROFILE_COUNT;
+    profile.quantity_count = (DMB_PROFILE_GAP + 1);
     profile.values = &rows[0][0];
     must(dmb_query_profile(s.sim, &profile), "rows");
     profile.values = &columns[0][0];
@@ -186,7 +186,7 @@ static void same_as_single_queries(void **state)
         dmb_motion motion = dmb_motion_default();
         dmb_section section = dmb_section_default();
         double angle;
-        for (int q = 0; q < DMB_PROFILE_COUNT; q++)
+        for (int q = 0; q < (DMB_PROFILE_GAP + 1); q++)
             assert_true(rows[i][q] == columns[q][i] || (isnan(rows[i][q]) && isnan(columns[q][i])));
         must(dmb_query_pose(s.sim, place, &pose), "pose");
         must(dmb_query_section(s.sim, place, &section), "section");
@@ -289,13 +289,13 @@ static void refused(void **state)
     REFUSED(quantities, NULL, DMB_ERR_NULL);
     REFUSED(values, NULL, DMB_ERR_NULL);
     REFUSED(quantity_count, 0, DMB_ERR_VALUE);
-    REFUSED(quantity_count, DMB_PROFILE_COUNT + 1, DMB_ERR_VALUE);
+    REFUSED(quantity_count, (DMB_PROFILE_GAP + 1) + 1, DMB_ERR_VALUE);
     REFUSED(station_stride, UINT64_MAX, DMB_ERR_VALUE);
     REFUSED(quantity_stride, 1, DMB_ERR_VALUE); /* both stations at one place */
     REFUSED(string.index, 12345, DMB_ERR_ID);
     quantity = -1;
     REFUSED(station_count, 2, DMB_ERR_VALUE);
-    quantity = DMB_PROFILE_COUNT;
+    quantity = (DMB_PROFILE_GAP + 1);
     REFUSED(station_count, 2, DMB_ERR_VALUE);
     quantity = 0;
     for (int k = 0; k < 4; k++) {
@@ -322,14 +322,14 @@ static void names(void **state)
 {
     const char *unit;
     (void)state;
-    for (int32_t q = 0; q < DMB_PROFILE_COUNT; q++) {
+    for (int32_t q = 0; q < (DMB_PROFILE_GAP + 1); q++) {
         assert_non_null(dmb_profile_name(q, &unit));
         assert_non_null(unit);
         for (int32_t k = 0; k < q; k++) assert_string_not_equal(dmb_profile_name(q, NULL), dmb_profile_name(k, NULL));
     }
     assert_null(dmb_profile_name(-1, &unit));
     assert_null(unit);
-    assert_null(dmb_profile_name(DMB_PROFILE_COUNT, NULL));
+    assert_null(dmb_profile_name((DMB_PROFILE_GAP + 1), NULL));
 }
 
 int main(void)

@@ -145,7 +145,7 @@ static void against_statics(void **state)
 {
     static const double survey[12] = {0.0, 0.9, 0.0, 80.0, 1.2, 0.5, 160.0, 1.5, 0.4, 240.0, 1.7, 1.2};
     (void)state;
-    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+    for (int kind = 0; kind < (DMB_OPERATION_BACK_REAM + 1); kind++) {
         const dmb_operation operation = usual(kind);
         const dmb_operation *op = &operation;
         double reaction[6];
@@ -244,7 +244,7 @@ static void consistent(void **state)
     double force[41], torque[41], depth[41], wall[41];
     (void)state;
     compile(&s);
-    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+    for (int kind = 0; kind < (DMB_OPERATION_BACK_REAM + 1); kind++) {
         dmb_operation operation = usual(kind), more;
         operation.weight_on_bit = 3000.0;
         operation.torque_on_bit = 200.0;
@@ -272,7 +272,7 @@ static void friction_is_found_again(void **state)
     dmb_torque_drag_options options = dmb_torque_drag_options_default();
     (void)state;
     compile(&s);
-    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+    for (int kind = 0; kind < (DMB_OPERATION_BACK_REAM + 1); kind++) {
         const dmb_operation operation = usual(kind);
         const int pushed = operation.axial_speed > 0.0 && operation.rotary_speed == 0.0;
         double found = -1.0;
@@ -457,7 +457,7 @@ static void refused(void **state)
     assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, NULL, &good, 1, NULL, NULL, NULL, NULL), DMB_ERR_VALUE);
     assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 2, 0.0, &found), DMB_ERR_VALUE);
     assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 0, (double)NAN, &found), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_operation_usual(DMB_OPERATION_COUNT, &good), DMB_ERR_VALUE);
+    assert_int_equal(dmb_operation_usual((DMB_OPERATION_BACK_REAM + 1), &good), DMB_ERR_VALUE);
     assert_int_equal(dmb_operation_usual(0, NULL), DMB_ERR_NULL);
     assert_null(dmb_operation_name(-1));
     assert_true(found == 7.0);

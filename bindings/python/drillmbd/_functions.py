@@ -403,7 +403,7 @@ FUNCTION_DOCS = {
     "dmb_motor_drive":
         "Fills the fields of the drive for this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part, time function and name stay) and returns w0 [rad/s], the constant value of its time function. Another flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, the leakage past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
     "dmb_operation_name":
-        "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
+        "\"pick-up\", \"slack-off\", ...; NULL for a number that is none: they are numbered from 0 without gaps.",
     "dmb_operation_usual":
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads on the bit 0, to be filled in. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE.",
     "dmb_output_check":
@@ -421,7 +421,7 @@ FUNCTION_DOCS = {
     "dmb_pool_peak":
         "[byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0 for any other allocator. Cannot fail.",
     "dmb_profile_name":
-        "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
+        "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none: they are numbered from 0 without gaps.",
     "dmb_profile_recorder_take":
         "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile; ERR_ORDER before the time of the last row, as after a restore: set row_count to the number of rows to keep.",
     "dmb_profile_recorder_write_csv":

@@ -2885,7 +2885,7 @@ class ProfileStruct(Sized):
         "string": ("", "{0, 0}: the model's first string"),
         "distance": ("m", "of the stations along the string, 0 .. its length, any order, shape (station_count); NULL: spread evenly from the rig end to the far end"),
         "quantities": ("", "PROFILE_..., shape (quantity_count)"),
-        "quantity_count": ("-", "1 .. PROFILE_COUNT, repetitions allowed"),
+        "quantity_count": ("-", "1 .. the number of them; repetitions allowed"),
         "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
         "station_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
         "quantity_stride": ("-", ""),

@@ -17,7 +17,7 @@ from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckRep
                        ModesOptions, Operation, Order, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT,
+from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE,
                     Component, OperationKind)
 from .errors import Error, check
 from .frames import Columns, SpeedBands
@@ -231,7 +231,7 @@ def row_of(cls: Any, given: Any, field: str) -> Any:
 
 
 # ---- Torque and drag -------------------------------------------------------------------------------------------------
-OPERATIONS = [kind for kind in OperationKind if kind < OPERATION_COUNT]
+OPERATIONS = list(OperationKind)
 
 
 def as_operation(one: Any) -> Operation:
@@ -248,7 +248,7 @@ def usual_operation(kind: int | str, **fields: Any) -> Operation:
         if kind not in names:
             refuse_value("operation", "kind", kind, f"be one of {' '.join(names)}")
         kind = names.index(kind)
-    check(_lib.dmb_operation_usual(whole(kind, "operation", "kind", 0, OPERATION_COUNT - 1), byref(operation)))
+    check(_lib.dmb_operation_usual(whole(kind, "operation", "kind", 0, len(OPERATIONS) - 1), byref(operation)))
     for name, value in fields.items():
         setattr(operation, name, value)
     return operation
@@ -256,7 +256,7 @@ def usual_operation(kind: int | str, **fields: Any) -> Operation:
 
 def operation_name(kind: int) -> str:
     """ "pick-up", "slack-off", ..."""
-    return (_lib.dmb_operation_name(whole(kind, "operation", "kind", 0, OPERATION_COUNT - 1)) or b"").decode()
+    return (_lib.dmb_operation_name(whole(kind, "operation", "kind", 0, len(OPERATIONS) - 1)) or b"").decode()
 
 
 class TorqueDrag:

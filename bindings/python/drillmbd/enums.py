@@ -586,7 +586,6 @@ class InputTarget(IntEnum):
     AXIAL_DAMPING: [N s/m2]
     TORSIONAL_DAMPING: [N s]
     STUCK: [-] 1: a place is stuck from now on, 0: it is free
-    COUNT: of the targets above, for programs that were built before others were added
     FLOW_RATE: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
     """
     SET_POINT = 0
@@ -602,8 +601,7 @@ class InputTarget(IntEnum):
     AXIAL_DAMPING = 10
     TORSIONAL_DAMPING = 11
     STUCK = 12
-    COUNT = 13
-    FLOW_RATE = 14
+    FLOW_RATE = 13
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -619,7 +617,6 @@ TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
 TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
 TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
 TARGET_STUCK = InputTarget.STUCK
-TARGET_COUNT = InputTarget.COUNT
 TARGET_FLOW_RATE = InputTarget.FLOW_RATE
 
 
@@ -780,7 +777,6 @@ class ProfileQuantity(IntEnum):
     MOMENT_Y = 32
     MOMENT_Z = 33
     GAP = 34
-    COUNT = 35
 
 
 PROFILE_DISTANCE = ProfileQuantity.DISTANCE
@@ -818,7 +814,6 @@ PROFILE_SHEAR_Z = ProfileQuantity.SHEAR_Z
 PROFILE_MOMENT_Y = ProfileQuantity.MOMENT_Y
 PROFILE_MOMENT_Z = ProfileQuantity.MOMENT_Z
 PROFILE_GAP = ProfileQuantity.GAP
-PROFILE_COUNT = ProfileQuantity.COUNT
 
 
 class Quantity(IntEnum):
@@ -838,7 +833,6 @@ class Quantity(IntEnum):
     DRIVE_SPEED: [m/s, rad/s] place.part is a drive
     BIT_WEIGHT: [N] place.part is a bit, bottom-hole load included
     ENERGY_ERROR: [-] of the ledger; place is ignored
-    COUNT: of these; ask.h continues from number 100
     """
     DISPLACEMENT_X = 0
     DISPLACEMENT_Y = 1
@@ -860,7 +854,6 @@ class Quantity(IntEnum):
     DRIVE_SPEED = 17
     BIT_WEIGHT = 18
     ENERGY_ERROR = 19
-    COUNT = 20
 
 
 OUTPUT_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
@@ -883,7 +876,6 @@ OUTPUT_DRIVE_FORCE = Quantity.DRIVE_FORCE
 OUTPUT_DRIVE_SPEED = Quantity.DRIVE_SPEED
 OUTPUT_BIT_WEIGHT = Quantity.BIT_WEIGHT
 OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
-OUTPUT_COUNT = Quantity.COUNT
 
 
 class Reading(IntEnum):
@@ -1546,7 +1538,6 @@ class OperationKind(IntEnum):
     DRILL = 3
     SLIDE = 4
     BACK_REAM = 5
-    COUNT = 6
 
 
 OPERATION_PICK_UP = OperationKind.PICK_UP
@@ -1555,7 +1546,6 @@ OPERATION_ROTATE = OperationKind.ROTATE
 OPERATION_DRILL = OperationKind.DRILL
 OPERATION_SLIDE = OperationKind.SLIDE
 OPERATION_BACK_REAM = OperationKind.BACK_REAM
-OPERATION_COUNT = OperationKind.COUNT
 
 
 class Measured(IntEnum):

@@ -11,13 +11,13 @@ from ._library import lib
 from ._optional import need
 from ._structs import Id, ProfileStruct
 from ._values import whole
-from .enums import PROFILE_COUNT, ProfileQuantity
+from .enums import ProfileQuantity
 from .errors import Error
 
 if TYPE_CHECKING:
     from .sim import Sim
 
-QUANTITIES = [quantity for quantity in ProfileQuantity if quantity < PROFILE_COUNT]
+QUANTITIES = list(ProfileQuantity)
 
 
 def unit_of(quantity: int) -> str:

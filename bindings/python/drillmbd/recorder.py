@@ -13,7 +13,7 @@ from ._optional import need, numpy
 from ._structs import Output, Id, ProfileRecorderStruct, ProfileStruct, RecorderStruct
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .outputs import output_name, output_of, output_text
-from .enums import OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
+from .enums import OUTPUT_PROFILE, PROFILE_DISTANCE, ProfileQuantity
 
 from .profile import unit_of, values_of
 from .running import sample_due
@@ -127,7 +127,7 @@ class ProfileRecorder:
     def __init__(self, sim: Sim, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
                  interval: float = 0.0, string: Id | str | None = None) -> None:
         string = as_id(string, sim._parts, "string")
-        self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, PROFILE_COUNT - 1) for one in quantities]
+        self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, len(ProfileQuantity) - 1) for one in quantities]
         capacity, interval = whole(capacity, "profile recorder", "capacity", 1, 2 ** 40), _interval(interval)
         if not isinstance(stations, int):
             stations = reals(stations, "profile recorder", "stations", unit="m")

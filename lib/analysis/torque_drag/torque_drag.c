@@ -16,19 +16,19 @@ DMB_DEFINE_INIT(dmb_operation, 40, {.axial_speed = 0.0})
 DMB_DEFINE_INIT(dmb_torque_drag_options, 40, {.post_buckling = 1, .friction = -1.0, .depth_count = 1})
 DMB_DEFINE_INIT(dmb_torque_drag_row, 128, {.locked = 0})
 
-enum { DEPTHS_MAX = 1 << 20, OPERATIONS_MAX = 4096 };
+enum { DEPTHS_MAX = 1 << 20, OPERATIONS_MAX = 4096, OPERATIONS = DMB_OPERATION_BACK_REAM + 1 };
 #define FRICTION_MAX 10.0
 
 int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
 {
-    static const double usual[DMB_OPERATION_COUNT][2] = {
+    static const double usual[OPERATIONS][2] = {
         [DMB_OPERATION_PICK_UP] = {-0.1, 0.0},      [DMB_OPERATION_SLACK_OFF] = {0.1, 0.0},
         [DMB_OPERATION_ROTATE] = {0.0, DMB_TWO_PI}, [DMB_OPERATION_DRILL] = {0.005, DMB_TWO_PI},
         [DMB_OPERATION_SLIDE] = {0.005, 0.0},       [DMB_OPERATION_BACK_REAM] = {-0.1, DMB_TWO_PI},
     };
     dmb_operation answer = dmb_operation_default();
     if (out == NULL) return dmb_failed("operation", DMB_ERR_NULL);
-    if (operation < 0 || operation >= DMB_OPERATION_COUNT) return dmb_failed("operation", DMB_ERR_VALUE);
+    if (operation < 0 || operation >= OPERATIONS) return dmb_failed("operation", DMB_ERR_VALUE);
     answer.axial_speed = usual[operation][0];
     answer.rotary_speed = usual[operation][1];
     return dmb_failed("operation", dmb_operation_write(out, &answer));
@@ -36,12 +36,12 @@ int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
 
 const char *dmb_operation_name(int32_t operation)
 {
-    static const char *const names[DMB_OPERATION_COUNT] = {
+    static const char *const names[OPERATIONS] = {
         [DMB_OPERATION_PICK_UP] = "pick-up", [DMB_OPERATION_SLACK_OFF] = "slack-off",
         [DMB_OPERATION_ROTATE] = "rotate",   [DMB_OPERATION_DRILL] = "drill",
         [DMB_OPERATION_SLIDE] = "slide",     [DMB_OPERATION_BACK_REAM] = "back-ream",
     };
-    return operation >= 0 && operation < DMB_OPERATION_COUNT ? names[operation] : NULL;
+    return operation >= 0 && operation < OPERATIONS ? names[operation] : NULL;
 }
 
 /* ---- String and options ------------------------------------------------------------------------------------------ */

@@ -116,7 +116,7 @@ static dmb_profile_recorder bad_profiles(subject *c, int what)
     if (what == NO_LIST) c->profile.quantities = NULL;
     if (what == NO_TABLE) r.table = NULL;
     if (what == NO_COUNT) c->profile.quantity_count = 0;
-    if (what == MANY) c->profile.quantity_count = DMB_PROFILE_COUNT + 1;
+    if (what == MANY) c->profile.quantity_count = (DMB_PROFILE_GAP + 1) + 1;
     if (what == NOT_FINITE) r.interval = (double)INFINITY;
     if (what == NEGATIVE) r.interval = -1.0;
     if (what == OVERFULL) r.row_count = 5;

@@ -162,22 +162,22 @@ static void outputs(void **state)
 {
     (void)state;
     hole_rig r = make(DMB_PIPE_FLEXIBLE, DMB_FREE_CYLINDRICAL);
-    dmb_output asked[DMB_OUTPUT_COUNT];
+    dmb_output asked[(DMB_OUTPUT_ENERGY_ERROR + 1)];
     dmb_recorder recorder = dmb_recorder_default();
     dmb_section section = dmb_section_default();
     dmb_drive_state drive = dmb_drive_state_default();
     dmb_bit_state bit = dmb_bit_state_default();
-    double row[1 + DMB_OUTPUT_COUNT], kinetic, normal = (double)NAN;
+    double row[1 + (DMB_OUTPUT_ENERGY_ERROR + 1)], kinetic, normal = (double)NAN;
     const dmb_place place = dmb_station(r.string, 2, 0.3);
     run(&r.s, 30);
-    for (int32_t i = 0; i < DMB_OUTPUT_COUNT; i++) {
+    for (int32_t i = 0; i < (DMB_OUTPUT_ENERGY_ERROR + 1); i++) {
         asked[i].place = place;
         if (i == DMB_OUTPUT_DRIVE_FORCE || i == DMB_OUTPUT_DRIVE_SPEED) asked[i].place.part = r.feed;
         if (i == DMB_OUTPUT_BIT_WEIGHT) asked[i].place.part = r.bit;
         asked[i].quantity = i;
         asked[i].reserved = 0;
     }
-    recorder.output_count = DMB_OUTPUT_COUNT;
+    recorder.output_count = (DMB_OUTPUT_ENERGY_ERROR + 1);
     recorder.outputs = asked;
     recorder.table = row;
     recorder.capacity = 1;
@@ -195,28 +195,28 @@ static void outputs(void **state)
         normal = contact.normal_force;
         break;
     }
-    const double want[1 + DMB_OUTPUT_COUNT] = {dmb_sim_time(r.s.sim),
-                                               pose.displacement[0],
-                                               pose.displacement[1],
-                                               pose.displacement[2],
-                                               world.velocity[0],
-                                               world.velocity[1],
-                                               world.velocity[2],
-                                               pose.position[0],
-                                               pose.position[1],
-                                               pose.position[2],
-                                               rotation_at(&r.s, place),
-                                               body.velocity[3],
-                                               section.force[0],
-                                               section.force[3],
-                                               hypot(section.force[4], section.force[5]),
-                                               kinetic,
-                                               normal,
-                                               drive.force,
-                                               drive.speed,
-                                               bit.weight + bit.load,
-                                               energy_of(&r.s).error};
-    for (int i = 0; i <= DMB_OUTPUT_COUNT; i++) CHECK_CLOSE(row[i], want[i], 0.0);
+    const double want[1 + (DMB_OUTPUT_ENERGY_ERROR + 1)] = {dmb_sim_time(r.s.sim),
+                                                            pose.displacement[0],
+                                                            pose.displacement[1],
+                                                            pose.displacement[2],
+                                                            world.velocity[0],
+                                                            world.velocity[1],
+                                                            world.velocity[2],
+                                                            pose.position[0],
+                                                            pose.position[1],
+                                                            pose.position[2],
+                                                            rotation_at(&r.s, place),
+                                                            body.velocity[3],
+                                                            section.force[0],
+                                                            section.force[3],
+                                                            hypot(section.force[4], section.force[5]),
+                                                            kinetic,
+                                                            normal,
+                                                            drive.force,
+                                                            drive.speed,
+                                                            bit.weight + bit.load,
+                                                            energy_of(&r.s).error};
+    for (int i = 0; i <= (DMB_OUTPUT_ENERGY_ERROR + 1); i++) CHECK_CLOSE(row[i], want[i], 0.0);
     rig_close(&r.s);
 }
 
