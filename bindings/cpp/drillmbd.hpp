@@ -93,8 +93,9 @@ private:
 };
 
 #if defined(DRILLMBD_EXCEPTIONS)
-// A call that was refused or failed, with nothing changed. The text of the exception is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
-// A refused value is known with its part, field, range and remedy (data(), the library's dmb_last_error).
+// A call that was refused or failed, with nothing changed. The text of the exception is "DMB_ERR_VALUE: pipe 3: length
+// = -1, must be ...". A refused value is known with its part, field, range and remedy (data(), the library's
+// dmb_last_error).
 class error : public std::runtime_error {
 public:
     // Of a status < 0 and the message of who failed; without one the text of the status.
@@ -1022,8 +1023,7 @@ public:
         return report;
     }
 
-    DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_excitation> inputs,
-                                                   span<const dmb_output> outputs,
+    DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_excitation> inputs, span<const dmb_output> outputs,
                                                    const dmb_response_options *options = nullptr)
     {
         dmb_response *found = nullptr;
