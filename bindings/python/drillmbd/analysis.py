@@ -17,8 +17,7 @@ from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckRep
                        ModesOptions, Operation, Order, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE,
-                    Component, OperationKind)
+from .enums import COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OperationKind
 from .errors import Error, check
 from .frames import Columns, SpeedBands
 from .outputs import output_text, outputs_of
