@@ -213,8 +213,8 @@ static void bent_elements_are_told(void **state)
         (void)add_load(&s, &load);
         (void)rig_start(&s, NULL);
         assert_int_equal(warnings_of(&s), 0);
-        expect_line(&s, curved ? "mass: of 1 elements as they bend, of 0 as straight ones"
-                               : "mass: of 0 elements as they bend, of 1 as straight ones, bent by 0 rad at most");
+        expect_line(&s, curved ? "mass matrix: curved for 1 elements, straight for 0,"
+                               : "mass matrix: curved for 0 elements, straight for 1, which turn by at most 0 rad");
         (void)find_equilibrium(&s, NULL);
         assert_int_equal(warnings_of(&s), curved ? 0 : 1);
         if (!curved) expect_line(&s, "an element with the mass of a straight one is bent by");

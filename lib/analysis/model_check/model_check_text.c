@@ -165,11 +165,11 @@ static void put_inertia(sheet *s, const dmb_model_check *findings)
     const dmb_bent_elements bent = dmb_find_bent(findings->sim);
     dmb_message line;
     if (bent.following + bent.constant == 0) return;
-    dmb_message_set(
-        &line,
-        "  mass: of %u elements as they bend, of %u as straight ones, bent by %g rad at most: momentum within "
-        "%g %%\n",
-        bent.following, bent.constant, bent.bend, 100.0 * bent.error);
+    dmb_message_set(&line,
+                    "  mass matrix: curved for %u elements, straight for %u, which turn by at most %g rad: error of "
+                    "momentum at most "
+                    "%g %%\n",
+                    bent.following, bent.constant, bent.bend, 100.0 * bent.error);
     put(s, line.text);
 }
 
