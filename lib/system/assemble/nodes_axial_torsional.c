@@ -173,11 +173,12 @@ static void assemble_part(dmb_evaluation *evaluation, path_part *part)
 {
     dmb_axial_torsional_node_args args = args_of(evaluation, part);
     if (part->site != DMB_NONE) set_contact(evaluation, part, &args);
+    const uint32_t tangents = args.by_tension != NULL ? part->count : 0;
     evaluation->sim->scene->kernels->axial_torsional_nodes(&args);
     evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
     evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
     evaluation->power[DMB_POWER_FRICTION] = args.friction_power;
-    for (uint32_t i = 0; i < part->count && args.by_tension != NULL; i++) {
+    for (uint32_t i = 0; i < tangents; i++) {
         const double *by_tension = part->by_tension + 2 * (size_t)i;
         if (by_tension[0] != 0.0 || by_tension[1] != 0.0)
             add_tension_tangent(evaluation->sim, part->node + i, by_tension);
