@@ -50,10 +50,10 @@ class Variant:
         return next(values for name, values in self.columns.items() if name.startswith(start))
 
     def pipe(self, quantity, number):
-        return self.column(f"{quantity} string 0 pipe {number - 1} at 1 ")
+        return self.column(f"{quantity} of string 0 pipe {number - 1} at 1 ")
 
     def bit(self, quantity):
-        return self.column(f"{quantity} bit 0 ")
+        return self.column(f"{quantity} of bit 0")
 
 
 class Run:
@@ -323,8 +323,8 @@ def overview(run):
            for name, text, color in (("rigid-vibration", "rigid\nstring", RED),
                                      ("flexible-vibration", "flexible\nstring", BLUE)) if name in run.variants]
     cells = [
-        [("Rotation torque of the head", "N m", of_cases("drive_force drive 1")),
-         ("Feed force of the head", "kN", [(variant, 1e-3 * variant.column("drive_force drive 0"), BLUE, "")])],
+        [("Rotation torque of the head", "N m", of_cases("drive_force of drive 1")),
+         ("Feed force of the head", "kN", [(variant, 1e-3 * variant.column("drive_force of drive 0"), BLUE, "")])],
         [("Bit, Z displacement", "mm", bit or [(variant, 1e3 * variant.bit("displacement_z"), BLUE, "")]),
          (f"Kinetic energy of pipe {numbers[2]}", "J",
           of_cases("kinetic_energy") or [(variant, variant.column("kinetic_energy"), BLUE, "")])],
