@@ -61,6 +61,20 @@ class StartingTest(unittest.TestCase):
         for dip in ("-5deg", "-5", "-5 deg", "-.5deg"):
             self.assertIn('dip = "-', said("new", "drainage", "--dip", dip)[1])
 
+    def test_the_example_of_a_study_loses_no_sample(self):
+        """The lines that `probability` prints for a scene without [variability] suit a scene as `new` writes it."""
+        needs("h5py", "scipy")
+        with tempfile.TemporaryDirectory() as folder:
+            target = pathlib.Path(folder, "hole.toml")
+            self.assertEqual(said("new", "drainage", "-o", str(target))[0], 0)
+            status, _, message = said("probability", str(target))
+            self.assertEqual(status, 2)
+            target.write_text(target.read_text(encoding="utf-8") + message[message.index("[variability]\n"):], encoding="utf-8")
+            status, out, _ = said("probability", str(target), "--question", "torque-drag", "--engine", "serial", "-o", str(pathlib.Path(folder, "out")))
+            self.assertEqual(status, 0)
+            self.assertIn("of 100;", out)
+            self.assertNotIn("without a margin", out)
+
     def test_new_refuses(self):
         with tempfile.TemporaryDirectory() as folder:
             target = str(pathlib.Path(folder, "hole.toml"))

@@ -19,10 +19,11 @@ from .study import StudyError
 LEAST = """[variability]
 samples = 100
 [[variability.scatter]]        # an uncertain parameter
-key = "hole.mu_dynamic"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+relative = true                # factors of the values in the scene
 distribution = "uniform"
-low = 0.2
-high = 0.4
+low = 0.7
+high = 1.3
 [[failure]]                    # a failure
 kind = "stress"
 strength = "500 MPa"
