@@ -218,6 +218,82 @@ static void four_bars_by_runge_kutta(void **state)
     check_order("dmb_sim_step against it", steps[0], steps[1], 2.0, 0.1);
 }
 
+/* ---- A linkage that a drive turns over and over ------------------------------------------------------------------ */
+
+/* A drag link in the plane of y and z: crank from (0, 0) to (0.3, 0), coupler to (0.3, 0.3), rocker from (0.1, 0).
+ * Crank and rocker make whole turns. The crank is at rest up to 4 s and turns by 9 rad/s from 4.2 s on, moved by a
+ * drive on itself or on its joint. */
+typedef struct linkage {
+    rig s;
+    dmb_id rocker; /* its joint with the ground */
+} linkage;
+
+static dmb_id add_axle(rig *s, dmb_id a, const double at_a[2], dmb_id b, const double at_b[2])
+{
+    dmb_joint_def joint = joint_between(DMB_JOINT_REVOLUTE, dmb_station(a, 0, 0.0), dmb_station(b, 0, 0.0));
+    memcpy(joint.origin_a + 1, at_a, 2 * sizeof *at_a);
+    memcpy(joint.origin_b + 1, at_b, 2 * sizeof *at_b);
+    return add_joint(s, &joint);
+}
+
+static linkage open_linkage(int on_joint)
+{
+    static const double place[3][2] = {{0.0, 0.0}, {0.3, 0.15}, {0.2, 0.15}};
+    linkage m;
+    dmb_id part[3];
+    rig_open(&m.s, 0.0, 0.0, -9.81);
+    for (int i = 0; i < 3; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        memcpy(body.position + 1, place[i], sizeof place[i]);
+        if (i == 0 && !on_joint) body.free_mask = DMB_FREE_RX;
+        part[i] = add_body(&m.s, &body);
+    }
+    const double none[2] = {0.0, 0.0};
+    dmb_id driven = part[0];
+    if (on_joint) driven = add_axle(&m.s, ground_id, none, part[0], none);
+    (void)add_axle(&m.s, part[0], (double[2]){0.3, 0.0}, part[1], (double[2]){0.0, -0.15});
+    (void)add_axle(&m.s, part[1], (double[2]){0.0, 0.15}, part[2], (double[2]){0.1, 0.15});
+    m.rocker = add_axle(&m.s, ground_id, (double[2]){0.1, 0.0}, part[2], (double[2]){-0.1, -0.15});
+    const dmb_segment start = {
+        .struct_size = sizeof start, .kind = DMB_SEGMENT_STEP, .x0 = 4.0, .x1 = 4.2, .h0 = 0.0, .h1 = 9.0};
+    (void)add_simple_drive(&m.s, DMB_DRIVE_MOTION, driven, DMB_RX, add_time_function(&m.s, &start, 1));
+    (void)mechanism_start(&m.s, NULL);
+    return m;
+}
+
+/* Angle of the rocker from its start, by the triangle of its pivot and both ends of the coupler, at an angle of the
+ * crank that is reached in small parts. */
+static double rocker_angle(double crank)
+{
+    const double length = sqrt(0.04 + 0.09);
+    double last = 0.0, start = 0.0;
+    for (int i = 0; i <= 2000; i++) {
+        const double y = 0.3 * cos(crank * i / 2000) - 0.1, z = 0.3 * sin(crank * i / 2000), d = hypot(y, z);
+        const double angle = atan2(z, y) + acos((d * d + length * length - 0.09) / (2.0 * d * length));
+        if (i == 0) last = start = angle;
+        last += remainder(angle - last, 2.0 * PI);
+    }
+    return last - start;
+}
+
+/* Its revolutions are counted and its branch is kept, however late the drive begins. */
+static void a_linkage_that_turns(void **state)
+{
+    (void)state;
+    for (int on_joint = 0; on_joint < 2; on_joint++) {
+        linkage m = open_linkage(on_joint);
+        equation e = equation_of(&m.s);
+        assert_int_equal(e.count, 0);
+        for (int i = 1; i <= 12; i++) {
+            e.time = 4.2 + 0.43 * i;
+            const double want = rocker_angle(9.0 * (e.time - 4.1));
+            check_close("angle of the rocker", joint_of(evaluate(&e), m.rocker).position[DMB_RX], want, 1e-12);
+        }
+        dmb_state_equation_destroy(&e.of);
+        rig_close(&m.s);
+    }
+}
+
 /* ---- A string, gears, drives: differences of poses --------------------------------------------------------------- */
 
 /* A bent string that a top drive feeds and turns, a body by a universal joint at its end, a geared wheel and a crank
@@ -575,6 +651,7 @@ int main(void)
         cmocka_unit_test(four_bars_by_runge_kutta),     cmocka_unit_test(rates_are_those_of_poses),
         cmocka_unit_test(equal_states_have_equal_bits), cmocka_unit_test(a_string_on_the_wall),
         cmocka_unit_test(a_memory_is_refused_by_name),  cmocka_unit_test(a_state_that_is_none),
+        cmocka_unit_test(a_linkage_that_turns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -154,12 +154,12 @@ static int32_t check_tilts(const dmb_state_equation *s)
     return DMB_OK;
 }
 
-static int32_t refuse_far(const dmb_state_equation *s, uint32_t row, double distance, const char *unit)
+static int32_t refuse_far(const dmb_state_equation *s, uint32_t node, double distance, const char *unit)
 {
     dmb_message_set(&s->work->message,
                     "state equation: %s: %g %s from the origin of the coordinates, too far for joints to be closed; "
                     "make a state before that the origin (dmb_state_equation_begin)",
-                    dmb_owner_of_node(s->work->scene, dmb_node_of_row(s->work->scene, row)).text.text, distance, unit);
+                    dmb_owner_of_node(s->work->scene, node).text.text, distance, unit);
     return DMB_ERR_GEOMETRY;
 }
 
@@ -308,31 +308,40 @@ static int32_t prescribe(const dmb_state_equation *s, dmb_evaluation *evaluation
     return dmb_system_prescribe(evaluation);
 }
 
-/* [strides] From the origin to the state, the longest of independent coordinates and driven joints. */
-static int32_t count_strides(const dmb_state_equation *s, const double *y, double *strides)
+/* Raises *strides to those of a coordinate of a part on joints that moves by `way` [m, rad]. */
+static int32_t count_way(const dmb_state_equation *s, uint32_t node, double way, int turns, double *strides)
+{
+    const double here = fabs(way) / (DMB_STATE_STRIDE * (turns ? 1.0 : s->work->reduced_mode->length));
+    if (!(here <= PLACES_MAX)) return refuse_far(s, node, way, turns ? "rad" : "m");
+    *strides = fmax(*strides, here);
+    return DMB_OK;
+}
+
+static int32_t count_row(const dmb_state_equation *s, uint32_t row, double way, double *strides)
 {
     const dmb_scene *scene = s->work->scene;
-    const double length = s->work->reduced_mode->length;
+    const uint32_t node = dmb_node_of_row(scene, row);
+    if (scene->node_cluster[node] == DMB_NONE) return DMB_OK;
+    return count_way(s, node, way, 2 * (row - scene->layout.row[node]) >= scene->layout.size[node], strides);
+}
+
+static int32_t count_drive(const dmb_state_equation *s, uint32_t i, double *strides)
+{
+    const dmb_scene_drive *drive = s->work->scene->drives + i;
+    if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
+    if (drive->joint == DMB_NONE) return count_row(s, drive->row, s->work->increment[drive->row], strides);
+    const double way = s->work->trial.drives[i].position - s->drive_position[i];
+    return count_way(s, s->work->scene->joints[drive->joint].b.node, way, drive->component >= DMB_RX, strides);
+}
+
+/* [strides] From the origin to the state, the longest of independent and prescribed coordinates. */
+static int32_t count_strides(const dmb_state_equation *s, const double *y, double *strides)
+{
+    int32_t status = DMB_OK;
     *strides = 1.0;
-    for (uint32_t i = 0; i < s->count; i++) {
-        const uint32_t node = dmb_node_of_row(scene, s->row_of[i]);
-        const int turns = 2 * (s->row_of[i] - scene->layout.row[node]) >= scene->layout.size[node];
-        if (scene->node_cluster[node] == DMB_NONE) continue;
-        const double here = fabs(y[i]) / (DMB_STATE_STRIDE * (turns ? 1.0 : length));
-        if (!(here <= PLACES_MAX)) return refuse_far(s, s->row_of[i], y[i], turns ? "rad" : "m");
-        *strides = fmax(*strides, here);
-    }
-    for (uint32_t i = 0; i < scene->drive_count; i++) {
-        const dmb_scene_drive *drive = scene->drives + i;
-        const double way = fabs(s->work->trial.drives[i].position - s->drive_position[i]);
-        if (drive->kind != DMB_DRIVE_MOTION || drive->joint == DMB_NONE) continue;
-        const int turns = drive->component >= DMB_RX;
-        const double here = way / (DMB_STATE_STRIDE * (turns ? 1.0 : length));
-        const uint32_t node = scene->joints[drive->joint].b.node;
-        if (!(here <= PLACES_MAX)) return refuse_far(s, scene->layout.row[node], way, turns ? "rad" : "m");
-        *strides = fmax(*strides, here);
-    }
-    return DMB_OK;
+    for (uint32_t i = 0; i < s->count && status >= 0; i++) status = count_row(s, s->row_of[i], y[i], strides);
+    for (uint32_t i = 0; i < s->work->scene->drive_count && status >= 0; i++) status = count_drive(s, i, strides);
+    return status;
 }
 
 /* z at the fraction `part` of the way: independent and prescribed rows, and a guess of the dependent ones. */
@@ -348,10 +357,25 @@ static void go_to(const dmb_state_equation *s, const double *y, double part)
     for (uint32_t i = 0; i < s->count; i++) s->z[s->row_of[i]] = part == 1.0 ? y[i] : part * y[i];
 }
 
+/* Prescribed travels at the fraction `part` of the way: of those at its end, since travel does not grow in proportion
+ * to time. */
+static int32_t prescribe_part(const dmb_state_equation *s, double time, double part)
+{
+    dmb_sim *work = s->work;
+    dmb_evaluation end = dmb_state_evaluation(s, time);
+    const int32_t status = prescribe(s, &end);
+    if (status < 0 || part == 1.0) return status;
+    for (uint32_t i = 0; i < work->scene->row_count; i++) work->increment[i] *= part;
+    for (uint32_t i = 0; i < work->scene->drive_count; i++)
+        work->trial.drives[i].position =
+            s->drive_position[i] + part * (work->trial.drives[i].position - s->drive_position[i]);
+    return status;
+}
+
 static int32_t go(const dmb_state_equation *s, double time, double part, const double *y)
 {
     dmb_evaluation evaluation = dmb_state_evaluation(s, part == 1.0 ? time : s->time + part * (time - s->time));
-    int32_t status = prescribe(s, &evaluation);
+    int32_t status = prescribe_part(s, time, part);
     if (status < 0) return status;
     go_to(s, y, part);
     status = check_tilts(s);
