@@ -82,11 +82,20 @@ static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
     transfer_all_rows(sim, from);
 }
 
-/* Reactions at joints, and of supports if the rig end is the same. */
+/* 1: the rig ends and supports of both scenes have the same rows. */
+static int same_supports(const dmb_scene *a, const dmb_scene *b)
+{
+    const size_t size = a->constrained_count * sizeof *a->constrained_node;
+    return a->node_count == b->node_count && a->constrained_count == b->constrained_count &&
+           (size == 0 || (memcmp(a->constrained_node, b->constrained_node, size) == 0 &&
+                          memcmp(a->constrained_component, b->constrained_component, size) == 0));
+}
+
+/* Reactions at joints, and of supports if these are the same. */
 static void transfer_reactions(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_scene *scene = sim->scene;
-    const int same = scene->node_count == from->scene->node_count;
+    const int same = same_supports(scene, from->scene);
     if (scene->cluster_count) transfer_all_rows(sim, from);
     if (same) DMB_COPY(support_reaction, scene->constrained_count);
     for (uint32_t i = 0; i < scene->drive_count; i++)
@@ -94,7 +103,8 @@ static void transfer_reactions(dmb_sim *sim, const dmb_sim *from)
             sim->now.drives[i].force = from->now.drives[i].force;
 }
 
-/* Bounces under way. Reactions remain those of the step before, which had their mean forces. */
+/* Bounces under way. Reactions remain those of the step before, which had their mean forces. A contact that opened in
+ * that step is no longer in the state: the reactions are then those of the state. */
 static int32_t transfer_bounces(dmb_sim *sim, const dmb_sim *from)
 {
     int32_t found;

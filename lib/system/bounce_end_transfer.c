@@ -36,11 +36,24 @@ static int any_touched(const dmb_sim *sim)
     return 0;
 }
 
-/* Ages by law; a law closed in the new sim only has lasted. */
+/* A law closed in the new sim only has lasted. */
+static void take_age(dmb_sim *sim, uint32_t u, const dmb_sim *from, uint32_t old)
+{
+    if (sim->bounce_age[u] != 0.0 && from->bounce_age[old] != 0.0) sim->bounce_age[u] = from->bounce_age[old];
+}
+
+/* Ages by joint and spring: laws are numbered differently if a joint has stops in one of the scenes only, and a scene
+ * where nothing may open has none. */
 static void take_ages(dmb_sim *sim, const dmb_sim *from)
 {
-    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
-        if (sim->bounce_age[u] != 0.0 && from->bounce_age[u] != 0.0) sim->bounce_age[u] = from->bounce_age[u];
+    const dmb_scene *scene = sim->scene, *was = from->scene;
+    if (scene->unilateral_count == 0 || was->unilateral_count == 0) return;
+    for (uint32_t j = 0; j < scene->joint_count; j++) {
+        const uint32_t law = scene->joints[j].law, old = was->joints[j].law;
+        for (uint32_t k = 0; k < 6 && law != DMB_NONE && old != DMB_NONE; k++) take_age(sim, law + k, from, old + k);
+    }
+    for (uint32_t i = 0; i < scene->spring_count; i++)
+        take_age(sim, dmb_bounce_of_spring(scene, i), from, dmb_bounce_of_spring(was, i));
 }
 
 /* Removes the powers of a force: dissipated, and of all of it. */
