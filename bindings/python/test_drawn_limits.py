@@ -155,7 +155,8 @@ class TogetherTest(FolderTest):
             self.assertEqual(key_of_path(path_of_key(key)), key)
         for key, wanted in (("time_function[feding].segment.h1", "no .*time_function.* is named feding; did you mean feeding"),
                             ("time_function[zz].segment.h1", "possible are feeding, rock, turning"), ("string[rods].pipes[a].length", "none has a name.*string\\[0\\].pipes\\[0\\]"),
-                            ("hole[x].diameter", "none has a name"), ("nothing[x].y", "none has a name")):
+                            ("hole[x].diameter", "none has a name"), ("nothing[x].y", "the scene has no .*nothing"),
+                            ("time_function[a[0]].segment.h1", "a table whose name has brackets is given by its number")):
             with self.assertRaisesRegex(ValueError, wanted):
                 by_number(key, content)
         for command in (("sweep", self.scene, "check"), ("probability", self.scene, "--samples", 10, "--engine", "serial")):
@@ -182,6 +183,26 @@ high = "90 rpm"
         (self.folder / "more.toml").write_text(self.SCENE + rock, encoding="utf-8")
         said = self.ask("probability", self.folder / "more.toml", "--vary", "time_function[turning].segment.h1=60 rpm", status=2)
         self.assertIn("each sample has a value of its own, of speed", said)
+
+    def test_names_that_look_like_something_else(self):
+        """Names with = and & in brackets are one key; a number that is the name of another table, and a name that two have, are refused."""
+        self.assertEqual(varied("time_function[a=b & c].segment.h1=1,2"), ("time_function[a=b & c].segment.h1", [1, 2]))
+        self.assertEqual(settings_of({"f[a & b].h & g": "1 & 2"}), {"f[a & b].h": 1, "g": 2})
+        content = {"f": [{"name": "1"}, {"name": "a.b"}, {"name": "é"}, {"name": "3"}, {"name": "twice"}, {"name": "twice"}]}
+        for key, number in (("f[a.b].x", "f[1].x"), ("f[é].x", "f[2].x"), ("f[3].x", "f[3].x"), ("f[0].x", "f[0].x"), ("f[9].x", "f[9].x")):
+            self.assertEqual(by_number(key, content, typed=True), number)
+        self.assertEqual(by_number("f[1].x", content), "f[1].x")  # as the package itself writes it
+        with self.assertRaisesRegex(ValueError, r"\[1\] is the number of a table, and f\[0\] is named 1; give that table a name that is not a number"):
+            by_number("f[1].x", content, typed=True)
+        with self.assertRaisesRegex(ValueError, r"2 tables .*f.* are named twice; write the number, as f\[4\]"):
+            by_number("f[twice].x", content)
+        (self.folder / "one.toml").write_text(self.SCENE.replace('"feeding"', '"1"'), encoding="utf-8")
+        for command in (("sweep", self.folder / "one.toml", "check"), ("probability", self.folder / "one.toml", "--samples", 10, "--engine", "serial")):
+            self.assertIn("is named 1", self.ask(*command, "--vary", "time_function[1].segment.h1=60 rpm,80 rpm", status=2))
+        speed = '[[variability.scatter]]\nkey = "time_function[1].segment.h1"\ndistribution = "uniform"\nlow = "60 rpm"\nhigh = "90 rpm"\n'
+        named = self.SCENE.replace('name = "feeding"', 'name = "1"').replace('time_function = "feeding"', 'time_function = "1"')
+        self.assertIn("is named 1; give that table", str(scene.loads(named + speed).remarks[0]))
+        self.assertEqual(scene.loads(self.SCENE + speed).remarks, scene.loads(self.SCENE).remarks)
 
     def test_map(self):
         """One value for both keys, and one each."""

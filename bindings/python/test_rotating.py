@@ -4,6 +4,7 @@ Equations: eq:sliding.state."""
 import csv
 import dataclasses
 import math
+import re
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -377,6 +378,18 @@ class RangeTest(FolderTest):
         out, summary = self.answer("speeds")
         self.assertIn("range: not assessed, because the scene gives no uncertain diameter or friction", out)
         self.assertIsNone(summary["speeds_range"])
+        hint = re.search(r"keys = \[.*?\] and relative = true", out)[0].replace(" and ", "\n")
+        self.scene = self.write("hint.toml", SCENE + f'[[variability.scatter]]\n{hint}\ndistribution = "uniform"\nlow = 0.7\nhigh = 1.3\n')
+        self.assertEqual(self.answer("speeds")[1]["speeds_range"]["not_assessed"], 0)
+
+    def test_the_reason_of_an_incomplete_static_state(self):
+        """The note is the library's message, which its status refers to."""
+        from drillmbd.results import CommandOutput
+        out = unittest.mock.Mock(units=SI)
+        CommandOutput.note(out, mbd.NOTE_INCOMPLETE, "static", "static: the stability is not resolved")
+        out.note_text.assert_called_once_with("static: the stability is not resolved")
+        CommandOutput.note(out, mbd.NOTE_UNSTABLE, "static", "static: another text")
+        self.assertIn("not stable", out.note_text.call_args[0][0])
 
     def test_band_over_range(self):
         """The band of the range begins where that of its widest hole does, and covers that of each breakpoint."""

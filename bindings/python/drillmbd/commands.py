@@ -55,7 +55,7 @@ def to_rest(scene: Scene, sim: Sim, out: CommandOutput, linear: bool = False) ->
 def settled(scene: Scene, sim: Sim, out: CommandOutput, values: dict[str, Any]) -> None:
     """The static state by these options, its report and its notes."""
     report = sim.static(**values)
-    out.note(report.status, "static")
+    out.note(report.status, "static", sim.message)
     out.summary["static"] = {**record(report), "status_name": Status(report.status).name}
     out.say(f"static state: {report.iterations} iterations, residual {report.residual:.1e}, "
                f"displacement up to {out.units.text(1e3 * report.lateral_move, 'mm')}")

@@ -149,7 +149,7 @@ class Study:
             values["load_steps"] = 10  # friction around a string lets it climb
             status = sim.static(**values).status
             self.out.note_text(phrase("static state: found in ten load steps"))
-        self.out.note(status, phrase("static state"))
+        self.out.note(status, phrase("static state"), Foreign(sim.message, self.out.units))
 
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01

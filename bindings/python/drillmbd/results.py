@@ -74,9 +74,11 @@ class CommandOutput:
         self.interrupted, INTERRUPTS.pending = True, False
         self.note_text(text)
 
-    def note(self, status: int, of: str) -> None:
-        """Notes the text of a status above 0."""
-        if status > 0:
+    def note(self, status: int, of: str, message: str = "") -> None:
+        """Notes the text of a status above 0. message: of the library, which states the reason of NOTE_INCOMPLETE."""
+        if status == Status.NOTE_INCOMPLETE and message:
+            self.note_text(self.units.sentence(message))
+        elif status > 0:
             self.note_text(self.units.sentence(phrase("{analysis}: {reason}", analysis=of, reason=Foreign(status_text(status)))))
 
     def note_text(self, text: str) -> None:

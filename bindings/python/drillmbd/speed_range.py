@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 QUANTILE = 1.6448536269514722  #: of the standard normal distribution, at 95 %
 MOST_BREAKPOINTS = 4               #: uncertain values of which all combinations of low and high are computed; more: one after the other
 NO_RANGE = ("range: not assessed, because the scene gives no uncertain diameter or friction; the bands are those of the described values. Give "
-            "[[variability.scatter]] with key = \"hole.diameter\" or \"hole.mu_dynamic\"")
+            "[[variability.scatter]] with keys = [\"hole.mu_static\", \"hole.mu_dynamic\"] and relative = true (factors of both), or with "
+            "key = \"hole.diameter\" (not below the diameter of the bit)")
 
 
 def ends_of(marginal: Any) -> tuple[float, float]:

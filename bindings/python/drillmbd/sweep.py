@@ -25,6 +25,8 @@ from .scene import CannotSave, Scene, SceneError, saves
 from .scene.overrides import by_number, path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+_KEY_AND_VALUES = re.compile(r"((?:[^=\[]|\[[^\]]*\])*)=(.*)", re.DOTALL)  # names in brackets may contain = and &
+_AND = re.compile(r"&(?![^\[]*\])")
 _NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick", "elapsed_s", "identity")
 MOST_CASES, MOST_ITEMS = 100_000, 32
 
@@ -57,9 +59,10 @@ def _between(text: str) -> list[Any]:
 def varied(text: str) -> tuple[str, list[Any]]:
     """KEY=V1,V2,... or KEY=LOW:HIGH:COUNT as the key and its values; "A & B=V1 & W1,V2 & W2" of keys that change together, "A & B=V1,V2" where
     they have the same values. Raises ValueError."""
-    key, found, values = text.partition("=")
-    if not found or not values.strip():
+    found = _KEY_AND_VALUES.fullmatch(text)
+    if found is None or not found[2].strip():
         raise ValueError(f"{text!r}: write KEY=V1,V2 or KEY=LOW:HIGH:COUNT")
+    key, values = found.groups()
     keys = keys_of(key)
     for one in keys:
         path_of_key(one)
@@ -71,18 +74,18 @@ def varied(text: str) -> tuple[str, list[Any]]:
 
 
 def refuse_unnamed(keys: list[str], file: str) -> None:
-    """Refuses keys that name a table which the scene file does not have, before any case. Raises ValueError; faults of the file are those of each case."""
+    """Refuses keys that name a table which the scene file does not have, or has twice, before any case. Raises ValueError; faults of the file are those of each case."""
     try:
         content = tomllib.loads(pathlib.Path(file).read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):
         return
     for key in keys:
-        by_number(key, content)
+        by_number(key, content, typed=True)
 
 
 def keys_of(text: str) -> list[str]:
     """The keys of "A & B"."""
-    return [one.strip() for one in text.split("&")]
+    return [one.strip() for one in _AND.split(text)]
 
 
 def _parts(value: Any) -> list[Any]:

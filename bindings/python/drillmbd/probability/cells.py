@@ -53,7 +53,7 @@ def _varied(texts: list[str], content: dict[str, Any]) -> list[tuple[str, list[A
     from ..sweep import keys_of, varied
     try:
         found = [varied(text) for text in texts]
-        keys = [by_number(one, content) for key, _ in found for one in keys_of(key)]
+        keys = [by_number(one, content, typed=True) for key, _ in found for one in keys_of(key)]
     except ValueError as error:
         raise Usage(f"--vary {error}") from None
     if len(set(keys)) < len(keys):

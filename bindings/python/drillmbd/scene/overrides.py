@@ -21,7 +21,8 @@ class Named:
 def path_of_key(key: str) -> Path:
     """("string", 0, "pipes", 1, "length"); items by name as Named. Raises ValueError where the text is no key."""
     if not _KEY.fullmatch(key) or key.endswith("]"):
-        raise ValueError(f"{key!r} is no key; write it as hole.diameter, string[0].pipes[1].length or time_function[NAME].segment.h1")
+        brackets = "; a table whose name has brackets is given by its number" if "[" in key else ""
+        raise ValueError(f"{key!r} is no key; write it as hole.diameter, string[0].pipes[1].length or time_function[NAME].segment.h1{brackets}")
     parts = re.findall(r"\[([^][]+)\]|([\w-]+)", key)
     return tuple((int(item) if re.fullmatch("[0-9]+", item) else Named(item)) if item else word for item, word in parts)
 
@@ -31,13 +32,16 @@ def key_of_path(path: Path) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f"[{part.name}]" if isinstance(part, Named) else f".{part}" for part in path)[1:]
 
 
-def by_number(key: str, content: dict[str, Any]) -> str:
-    """The key with the numbers of the items that it names. Raises ValueError where there is no such name, with those that there are."""
+def by_number(key: str, content: dict[str, Any], typed: bool = False) -> str:
+    """The key with the numbers of the items that it names. typed: by a user, so that a number must not be the name of another item. Raises
+    ValueError where there is no such name, with those that there are, or several."""
     found: list[Any] = []
     holder: Any = content
     for part in path_of_key(key):
         if isinstance(part, Named):
             part = _number(key, part.name, key_of_path(tuple(found)), holder)
+        elif isinstance(part, int) and typed and (doubt := _other(part, key_of_path(tuple(found)), holder)):
+            raise ValueError(f"{key!r}: {doubt}; give that table a name that is not a number")
         found.append(part)
         if isinstance(holder, list) and isinstance(part, str):  # one table counts as an array of one
             holder = holder[0] if len(holder) == 1 else None
@@ -49,14 +53,28 @@ def by_number(key: str, content: dict[str, Any]) -> str:
     return key_of_path(tuple(found))
 
 
+def _names(holder: Any) -> list[Any]:
+    """Of the items of an array of tables; None of an item without one."""
+    items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
+    return [one.get("name") if isinstance(one, dict) else None for one in items]
+
+
+def _other(number: int, table: str, holder: Any) -> str:
+    """The item, other than that with the number, whose name is the number; "" without one."""
+    names = _names(holder)
+    other = names.index(str(number)) if str(number) in names else number
+    return f"[{number}] is the number of a table, and {table}[{other}] is named {number}" if other != number else ""
+
+
 def _number(key: str, name: str, table: str, holder: Any) -> int:
     """The number of the item of an array of tables that has a name."""
-    items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
-    names = [one.get("name") if isinstance(one, dict) else None for one in items]
-    if name in names:
+    names = _names(holder)
+    if names.count(name) == 1:
         return names.index(name)
+    if name in names:
+        raise ValueError(f"{key!r}: {names.count(name)} tables [[{table}]] are named {name}; write the number, as {table}[{names.index(name)}]")
     known = [one for one in names if isinstance(one, str)]
-    there = meant(name, known) if known else f"; none has a name: give it one, or write its number, as {table}[0]"
+    there = meant(name, known) if known else f"; none has a name: write the number, as {table}[0]" if names else f"; the scene has no [[{table}]]"
     raise ValueError(f"{key!r}: no [[{table}]] is named {name}{there}")
 
 

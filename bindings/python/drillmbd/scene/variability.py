@@ -279,7 +279,14 @@ class Reader:
     def _by_number(self, path: Path, keys: list[Any]) -> list[Any] | None:
         """Keys with the numbers of the tables that they name; None where one is wrong."""
         try:
-            return [by_number(key, self.loader.content) if isinstance(key, str) else key for key in keys]
+            found = [by_number(key, self.loader.content) if isinstance(key, str) else key for key in keys]
+            try:
+                for key in keys:
+                    if isinstance(key, str):
+                        by_number(key, self.loader.content, typed=True)
+            except ValueError as error:  # no fault: saved scenes have numbers
+                self.problems.remark(path, None, str(error))
+            return found
         except ValueError as error:
             self.problems.add(path, keys if len(keys) > 1 else keys[0], str(error))
             return None
