@@ -587,12 +587,13 @@ DMB_SIZED_STRUCT(dmb_stepped_sine_report)
 /* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
  * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
  * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. DMB_OUTPUT_VIBRATION are displacements since
- * time 0 in the axes of the world or (_BODY) those the place has at the call, less their drift over the window; RX is
- * the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other
- * outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
- * the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID,
- * _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted
- * state. amplitudes and report are left alone on error. Cost: steps. */
+ * time 0, less their drift over the window, and rotations from the pose at the call, with revolutions about the place's
+ * own axis counted; along the axes of the world or (_BODY) those the place has at the call, which do not turn with it;
+ * _VELOCITY and _ACCELERATION are their rates. They are those of the linear response about that state, with axes at
+ * rest if it spins. Other outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled
+ * in `windows`; the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE,
+ * _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last
+ * accepted state. amplitudes and report are left alone on error. Cost: steps. */
 DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
                                           const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                           dmb_stepped_sine_report *report);

@@ -159,7 +159,7 @@ static void refused_in_axes_at_rest(void **state)
 
 /* ---- On the wall ------------------------------------------------------------------------------------------------- */
 
-enum { OUTPUTS = 4 };
+enum { OUTPUTS = 10 };
 
 typedef struct turning {
     rig rig;
@@ -210,6 +210,12 @@ static void outputs_of(const turning *s, dmb_output out[OUTPUTS])
     out[1] = output_at(DMB_OUTPUT_VIBRATION, dmb_station(s->string, 1, 0.5), DMB_Z);
     out[2] = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_Y);
     out[3] = output_at(DMB_OUTPUT_CONTACT_NORMAL_FORCE, dmb_station(s->string, 2, 0.0), 0); /* site 2, the end */
+    out[4] = output_at(DMB_OUTPUT_VIBRATION, dmb_station(s->string, 1, 0.5), DMB_RY); /* while the pipe turns on */
+    out[5] = output_at(DMB_OUTPUT_VIBRATION_BODY, dmb_station(s->string, 1, 0.5), DMB_RZ);
+    out[6] = output_at(DMB_OUTPUT_VIBRATION_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_RZ);
+    out[7] = output_at(DMB_OUTPUT_VIBRATION_VELOCITY_BODY, dmb_station(s->string, 1, 0.5), DMB_Y);
+    out[8] = output_at(DMB_OUTPUT_VIBRATION_ACCELERATION_BODY, dmb_station(s->string, 1, 0.5), DMB_Z);
+    out[9] = output_at(DMB_OUTPUT_VIBRATION_ACCELERATION, dmb_station(s->string, 1, 0.5), DMB_RY);
 }
 
 static void linear_on_the_wall(double frequency, double complex out[OUTPUTS])

@@ -19,6 +19,7 @@ typedef struct sine_output {
     dmb_output output;
     dmb_asked_output asked; /* of a vibration; else of kind DMB_ASKED_OUTPUT */
     double start[9];        /* [-] axes of the place at the call, columns, world */
+    double angle;           /* [rad] about its axis at the call */
 } sine_output;
 
 static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
@@ -29,39 +30,78 @@ static void part_along(const double axes[9], int32_t frame, const double world[3
         dmb_vec3_copy(world, out);
 }
 
-/* Rotation vector, in world axes, from the start to now. */
-static void rotation_since(const double start[9], const double now[9], double out[3])
+/* Rotation from the pose at the call, R = R_0 R_D exp(phi x~), phi the unwrapped angle about the own axis: the world
+ * components of (phi, 0, 0) + log R_D in the axes at the call, to first order those of the vibration however far the
+ * place has turned about its axis. */
+static void rotation_since(const sine_output *o, const double now[9], double angle, double out[3])
 {
-    double turned[9], q[4], own[3];
-    dmb_mat3_mul_tn(start, now, turned);
-    dmb_quat_from_matrix(turned, q);
+    const double phi = angle - o->angle, c = cos(phi), s = sin(phi);
+    const double back[9] = {1.0, 0.0, 0.0, 0.0, c, s, 0.0, -s, c};
+    double turned[9], tilt[9], q[4], own[3];
+    dmb_mat3_mul_tn(o->start, now, turned);
+    dmb_mat3_mul(turned, back, tilt);
+    dmb_quat_from_matrix(tilt, q);
     dmb_quat_log(q, own);
-    dmb_mat3_vec(start, own, out);
+    own[0] += phi;
+    dmb_mat3_vec(o->start, own, out);
 }
 
 static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
-    const int32_t c = o->asked.component;
     dmb_pose pose = dmb_pose_default();
     double angle = 0.0, world[3], out[3];
-    if (c == DMB_RX) {
-        *status = dmb_answer_rotation(sim, o->output.place, &angle);
-        return angle;
-    }
     *status = dmb_answer_pose(sim, o->output.place, &pose);
+    if (*status >= 0) *status = dmb_answer_rotation(sim, o->output.place, &angle);
     if (*status < 0) return 0.0;
-    if (c < DMB_RX)
+    if (o->asked.component < DMB_RX)
         dmb_vec3_copy(pose.displacement, world);
     else
-        rotation_since(o->start, pose.rotation, world);
+        rotation_since(o, pose.rotation, angle, world);
     part_along(o->start, o->asked.frame, world, out);
-    return out[c % 3];
+    return out[o->asked.component % 3];
+}
+
+/* Of the angular velocity w of a place that spins by s about its axis t, the part that is the rate of rotation_since:
+ * w - s (t - t_0); of the angular acceleration a the rate of that, a - s' (t - t_0) - s w x t. */
+static void without_spin(const dmb_sim *sim, const sine_output *o, const dmb_motion *world, double out[3])
+{
+    dmb_motion own = dmb_motion_default();
+    dmb_pose pose = dmb_pose_default();
+    double t[3], swing[3];
+    const int is_velocity = o->asked.kind == DMB_ASKED_VELOCITY;
+    own.frame = DMB_FRAME_BODY;
+    (void)dmb_answer_motion(sim, o->output.place, &own);
+    (void)dmb_answer_pose(sim, o->output.place, &pose);
+    for (int i = 0; i < 3; i++) t[i] = pose.rotation[3 * i];
+    dmb_vec3_cross(world->velocity + 3, t, swing);
+    for (int i = 0; i < 3; i++) {
+        const double moved = t[i] - o->start[3 * i];
+        out[i] = is_velocity ? world->velocity[3 + i] - own.velocity[3] * moved
+                             : world->acceleration[3 + i] - own.acceleration[3] * moved - own.velocity[3] * swing[i];
+    }
+}
+
+/* Rates of the displacement, in its axes: those of the world, or those at the call, which do not turn with the place.
+ */
+static double rate_of(const dmb_sim *sim, const sine_output *o, int32_t *status)
+{
+    dmb_motion motion = dmb_motion_default();
+    double world[3], out[3];
+    *status = dmb_answer_motion(sim, o->output.place, &motion);
+    if (*status < 0) return 0.0;
+    if (o->asked.component < DMB_RX)
+        dmb_vec3_copy(o->asked.kind == DMB_ASKED_VELOCITY ? motion.velocity : motion.acceleration, world);
+    else
+        without_spin(sim, o, &motion, world);
+    part_along(o->start, o->asked.frame, world, out);
+    return out[o->asked.component % 3];
 }
 
 static double value_of(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
-    return o->asked.kind == DMB_ASKED_DISPLACEMENT ? displacement(sim, o, status)
-                                                   : dmb_answer_of(sim, &o->asked, status);
+    if (o->asked.kind == DMB_ASKED_DISPLACEMENT) return displacement(sim, o, status);
+    if (o->asked.kind == DMB_ASKED_OUTPUT) return dmb_answer_of(sim, &o->asked, status);
+    return rate_of(sim, o, status);
 }
 
 /* Takes the pose of the call. Errors: those of the queries. */
@@ -69,7 +109,11 @@ static int32_t begin_output(const dmb_sim *sim, sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
-    if (output->asked.kind == DMB_ASKED_DISPLACEMENT) status = dmb_answer_pose(sim, output->output.place, &pose);
+    output->angle = 0.0;
+    if (output->asked.kind != DMB_ASKED_OUTPUT) {
+        status = dmb_answer_pose(sim, output->output.place, &pose);
+        if (status >= 0) status = dmb_answer_rotation(sim, output->output.place, &output->angle);
+    }
     memcpy(output->start, pose.rotation, sizeof output->start);
     if (status >= 0) (void)value_of(sim, output, &status);
     return status;
