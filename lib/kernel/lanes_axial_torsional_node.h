@@ -14,21 +14,21 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 
-typedef struct path_group {
+typedef struct wall_node_group {
     lane_group node;
     uint32_t arc; /* of the hole, of the last lane */
     uint32_t reserved;
     dmb_real depth;                    /* [m] measured */
     dmb_real tangent[3], curvature[3]; /* [-, 1/m] of the hole, in a curved one */
     dmb_real v[2], residual[2], scale[2];
-} path_group;
+} wall_node_group;
 
 static inline int is_curved(const dmb_axial_torsional_node_args *args)
 {
     return args->hole != NULL && !dmb_hole_is_straight(args->hole);
 }
 
-/* The arc at depth s, sought from the one of the node before: as dmb_hole_segment_at. */
+/* Arc at depth s as dmb_hole_segment_at finds it; the search starts at the arc of the previous node. */
 static inline uint32_t arc_from(const dmb_hole *hole, double s, uint32_t arc)
 {
     while (arc + 1 < hole->stations && hole->station[arc + 1].depth <= s) arc++;
@@ -37,11 +37,11 @@ static inline uint32_t arc_from(const dmb_hole *hole, double s, uint32_t arc)
 }
 
 /* Station and arc of each lane: above the first station the axis is straight. */
-typedef struct path_arcs {
+typedef struct arc_lanes {
     dmb_real tangent[3], normal[3], curvature, beyond; /* [m] behind the station */
-} path_arcs;
+} arc_lanes;
 
-static inline void load_arcs(const dmb_axial_torsional_node_args *args, path_group *g, path_arcs *arcs)
+static inline void load_arcs(const dmb_axial_torsional_node_args *args, wall_node_group *g, arc_lanes *arcs)
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const double s = dmb_real_lane(&g->depth, l);
@@ -57,9 +57,9 @@ static inline void load_arcs(const dmb_axial_torsional_node_args *args, path_gro
 }
 
 /* t = cos(k r) T + sin(k r) n, dt/ds = k (cos(k r) n - sin(k r) T) (eq:hole.arc) */
-static inline void find_frames(const dmb_axial_torsional_node_args *args, path_group *g)
+static inline void find_frames(const dmb_axial_torsional_node_args *args, wall_node_group *g)
 {
-    path_arcs arcs;
+    arc_lanes arcs;
     dmb_real sine, cosine;
     load_arcs(args, g, &arcs);
     dmb_real_sin_cos(arcs.curvature * arcs.beyond, &sine, &cosine);
@@ -69,7 +69,7 @@ static inline void find_frames(const dmb_axial_torsional_node_args *args, path_g
     }
 }
 
-static inline void place_nodes(const dmb_axial_torsional_node_args *args, path_group *g)
+static inline void place_nodes(const dmb_axial_torsional_node_args *args, wall_node_group *g)
 {
     dmb_real u[3];
     load(args->displacement, 3, 3, &g->node, 0, u);
@@ -80,14 +80,14 @@ static inline void place_nodes(const dmb_axial_torsional_node_args *args, path_g
     load(args->scale, 2, 2, &g->node, 0, g->scale);
 }
 
-static inline void push(path_group *g, int row, dmb_real force)
+static inline void push(wall_node_group *g, int row, dmb_real force)
 {
     g->residual[row] = g->residual[row] - force;
     g->scale[row] = g->scale[row] + dmb_real_abs(force);
 }
 
 /* A node advances along the hole's axis, in a straight hole or none along the x axis of its initial pose. */
-static inline void weigh_along(dmb_axial_torsional_node_args *args, path_group *g)
+static inline void weigh_along(dmb_axial_torsional_node_args *args, wall_node_group *g)
 {
     dmb_real q[4], R[9], along[3], gravity[3];
     for (int i = 0; i < 3; i++) gravity[i] = dmb_real_of(args->gravity[i]);
@@ -105,7 +105,7 @@ static inline void weigh_along(dmb_axial_torsional_node_args *args, path_group *
 }
 
 /* Axial and torsional damping. */
-static inline void damp_along(dmb_axial_torsional_node_args *args, path_group *g, dmb_real C[4])
+static inline void damp_along(dmb_axial_torsional_node_args *args, wall_node_group *g, dmb_real C[4])
 {
     dmb_real c[5];
     load(args->damping, 5, 5, &g->node, 0, c);
@@ -120,21 +120,22 @@ static inline void damp_along(dmb_axial_torsional_node_args *args, path_group *g
 _Static_assert(offsetof(dmb_axial_torsional_site, length) == sizeof(double), "radius, length");
 
 /* Of the contact points: side force [N] and its derivative by tension [-]. */
-typedef struct path_press {
+typedef struct side_force {
     dmb_real radius, length, N, by_tension;
-} path_press;
+} side_force;
 
-/* Radius and length are the first numbers of a contact point; those behind them are not used. */
-static inline void load_rubbing(const dmb_axial_torsional_node_args *args, const path_group *g, path_press *press)
+/* Radius and length are the first two numbers of a contact point. */
+static inline void load_contact_points(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
+                                       side_force *side)
 {
     enum { NUMBERS = sizeof(dmb_axial_torsional_site) / sizeof(double) };
     dmb_real head[NUMBERS];
     load((const double *)(const void *)args->sites, NUMBERS, NUMBERS, &g->node, 0, head);
-    press->radius = head[0];
-    press->length = head[1];
+    side->radius = head[0];
+    side->length = head[1];
 }
 
-static inline void find_side_force(const dmb_axial_torsional_node_args *args, path_group *g, path_press *press)
+static inline void find_side_force(const dmb_axial_torsional_node_args *args, wall_node_group *g, side_force *side)
 {
     const int curved = is_curved(args);
     const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0);
@@ -145,17 +146,17 @@ static inline void find_side_force(const dmb_axial_torsional_node_args *args, pa
         t[i] = curved ? g->tangent[i] : dmb_real_of(args->hole->direction[i]);
     }
     dmb_vec3_axpy(-dmb_vec3_dot(u, t), t, u);
-    if (curved) dmb_vec3_axpy(load_line(args->tension, &g->node) * press->length, g->curvature, u);
-    press->N = dmb_real_sqrt(dmb_vec3_dot(u, u));
-    press->by_tension = zero;
+    if (curved) dmb_vec3_axpy(load_line(args->tension, &g->node) * side->length, g->curvature, u);
+    side->N = dmb_real_sqrt(dmb_vec3_dot(u, u));
+    side->by_tension = zero;
     if (!curved) return;
-    const dmb_mask presses = dmb_mask_less(zero, press->N);
-    dmb_vec3_scale(dmb_real_select(presses, one / dmb_real_select(presses, press->N, one), zero), u, u);
-    press->by_tension = press->length * dmb_vec3_dot(u, g->curvature);
+    const dmb_mask presses = dmb_mask_less(zero, side->N);
+    dmb_vec3_scale(dmb_real_select(presses, one / dmb_real_select(presses, side->N, one), zero), u, u);
+    side->by_tension = side->length * dmb_vec3_dot(u, g->curvature);
 }
 
 /* The friction law with the coefficients of each place. */
-static inline dmb_local_friction law_at(const dmb_axial_torsional_node_args *args, const path_group *g)
+static inline dmb_local_friction law_at(const dmb_axial_torsional_node_args *args, const wall_node_group *g)
 {
     dmb_local_friction local = dmb_local_friction_of(args->friction_law);
     for (int l = 0; l < DMB_REAL_LANES && args->hole->pieces > 0; l++) {
@@ -168,12 +169,13 @@ static inline dmb_local_friction law_at(const dmb_axial_torsional_node_args *arg
 }
 
 /* Friction [N], and its derivatives by speed and side force. */
-typedef struct path_friction {
+typedef struct wall_friction {
     dmb_real F[2], dv[4], dN[2];
-} path_friction;
+} wall_friction;
 
-static inline void rub_bristles(const dmb_axial_torsional_node_args *args, const path_group *g,
-                                const dmb_local_friction *law, dmb_real N, const dmb_real v[2], path_friction *rub)
+static inline void bristle_friction(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
+                                    const dmb_local_friction *law, dmb_real N, const dmb_real v[2],
+                                    wall_friction *friction)
 {
     dmb_real z_old[2], v_old[2], z[2], stuck = dmb_real_of(0.0);
     load(args->now_bristle, 2, 2, &g->node, 0, z_old);
@@ -181,55 +183,55 @@ static inline void rub_bristles(const dmb_axial_torsional_node_args *args, const
     for (int l = 0; l < DMB_REAL_LANES; l++)
         dmb_real_set_lane(&stuck, l, args->now_sticks[place_at(&g->node, (uint32_t)l)] ? 1.0 : 0.0);
     const dmb_mask sticks = dmb_friction_bristle(law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
-                                                 args->step, z, rub->F, rub->dv, rub->dN);
+                                                 args->step, z, friction->F, friction->dv, friction->dN);
     const uint32_t bits = dmb_mask_bits(sticks);
     store(z, 2, &g->node, args->bristle);
     for (uint32_t l = 0; l < g->node.used; l++) args->sticks[g->node.first + l] = (int32_t)(bits >> l & 1);
 }
 
-/* C -= factor dF/dv, of the speeds along the hole and of rotation; dF/dT for what elements add. */
-static inline void add_friction_tangent(const dmb_axial_torsional_node_args *args, const path_group *g,
-                                        const path_press *press, const path_friction *rub, dmb_real C[4])
+/* C -= factor dF/dv, by the speeds along the hole and of rotation; stores dF/dT for the tangent of the elements. */
+static inline void add_friction_tangent(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
+                                        const side_force *side, const wall_friction *friction, dmb_real C[4])
 {
     const double s = args->velocity_factor;
-    const dmb_real r = press->radius;
-    const dmb_real by_tension[2] = {rub->dN[0] * press->by_tension, r * rub->dN[1] * press->by_tension};
+    const dmb_real r = side->radius;
+    const dmb_real by_tension[2] = {friction->dN[0] * side->by_tension, r * friction->dN[1] * side->by_tension};
     if (args->by_tension != NULL) store(by_tension, 2, &g->node, args->by_tension);
     if (!args->dynamic) return;
-    C[0] = C[0] - s * rub->dv[0];
-    C[1] = C[1] - s * r * rub->dv[1];
-    C[2] = C[2] - s * r * rub->dv[2];
-    C[3] = C[3] - s * r * r * rub->dv[3];
+    C[0] = C[0] - s * friction->dv[0];
+    C[1] = C[1] - s * r * friction->dv[1];
+    C[2] = C[2] - s * r * friction->dv[2];
+    C[3] = C[3] - s * r * r * friction->dv[3];
 }
 
-static inline void rub_on_wall(dmb_axial_torsional_node_args *args, path_group *g, dmb_real C[4])
+static inline void add_node_friction(dmb_axial_torsional_node_args *args, wall_node_group *g, dmb_real C[4])
 {
     const dmb_real zero = dmb_real_of(0.0), still[2] = {zero, zero};
-    path_press press;
-    path_friction rub;
-    load_rubbing(args, g, &press);
+    side_force side;
+    wall_friction friction;
+    load_contact_points(args, g, &side);
     const dmb_real v[2] = {args->dynamic ? g->v[0] : dmb_real_of(args->slip[0]),
-                           press.radius * (args->dynamic ? g->v[1] : dmb_real_of(args->slip[1]))};
+                           side.radius * (args->dynamic ? g->v[1] : dmb_real_of(args->slip[1]))};
     store(v, 2, &g->node, args->trial_slip);
     store(still, 2, &g->node, args->friction);
     if (args->friction_law == NULL) return;
     const dmb_local_friction law = law_at(args, g);
-    find_side_force(args, g, &press);
+    find_side_force(args, g, &side);
     if (args->dynamic && dmb_friction_has_memory(args->friction_law))
-        rub_bristles(args, g, &law, press.N, v, &rub);
+        bristle_friction(args, g, &law, side.N, v, &friction);
     else
-        dmb_friction_smooth_at(&law, press.N, v, rub.F, rub.dv, rub.dN);
-    if (args->dynamic) store(rub.F, 2, &g->node, args->friction);
-    push(g, 0, rub.F[0]);
-    push(g, 1, press.radius * rub.F[1]);
-    if (args->dynamic) add_each(rub.F[0] * v[0] + rub.F[1] * v[1], &g->node, &args->friction_power);
-    if (args->tangent) add_friction_tangent(args, g, &press, &rub, C);
+        dmb_friction_smooth_at(&law, side.N, v, friction.F, friction.dv, friction.dN);
+    if (args->dynamic) store(friction.F, 2, &g->node, args->friction);
+    push(g, 0, friction.F[0]);
+    push(g, 1, side.radius * friction.F[1]);
+    if (args->dynamic) add_each(friction.F[0] * v[0] + friction.F[1] * v[1], &g->node, &args->friction_power);
+    if (args->tangent) add_friction_tangent(args, g, &side, &friction, C);
 }
 
 static void axial_torsional_nodes(dmb_axial_torsional_node_args *args)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    path_group g;
+    wall_node_group g;
     memset(&g, 0, sizeof g);
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         dmb_real C[4] = {zero, zero, zero, zero};
@@ -238,7 +240,7 @@ static void axial_torsional_nodes(dmb_axial_torsional_node_args *args)
         if (args->tangent) load(args->inertia, 4, 4, &g.node, 0, C);
         if (args->weighs) weigh_along(args, &g);
         if (args->damping != NULL) damp_along(args, &g, C);
-        if (args->sites != NULL) rub_on_wall(args, &g, C);
+        if (args->sites != NULL) add_node_friction(args, &g, C);
         store(g.residual, 2, &g.node, args->residual);
         store(g.scale, 2, &g.node, args->scale);
         if (args->tangent) store(C, 4, &g.node, args->inertia);

@@ -1,5 +1,5 @@
 /* Axial-torsional nodes: rigid masses one by one; weight, damping and friction on the wall by the kernels
- * (kernel/lanes_axial_torsional_node.h), which take the frame of the hole at each node once. */
+ * (kernel/lanes_axial_torsional_node.h), which compute the frame of the hole at each node once. */
 #include <string.h>
 
 #include "element/beam.h"
@@ -75,21 +75,22 @@ static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[
 
 /* ---- Runs ------------------------------------------------------------------------------------------------------ */
 
-/* [-] nodes of a run that go to the kernels together */
-enum { PATH_NODES = 64 };
+/* [-] most nodes in one call of the kernels */
+enum { CHUNK_NODES = 64 };
 
-/* A part of a run: either each node has a contact point, the first one `site`, or none has (DMB_NONE). */
-typedef struct path_part {
+/* Nodes in a row that all have a contact point, the first one `site`, or none (DMB_NONE). */
+typedef struct node_chunk {
     uint32_t node, count, site, reserved;
-    double tension[PATH_NODES], by_tension[2 * PATH_NODES];
+    double tension[CHUNK_NODES], by_tension[2 * CHUNK_NODES];
     dmb_friction_law sliding;
-} path_part;
+} node_chunk;
 
-/* The part that begins at the node; *site is the first contact point that is not behind it. */
-static void take_part(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t site, path_part *part)
+/* Chunk of nodes from `node` on, before `end`; `site` is the first contact point at or after it. */
+static void next_chunk(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t site, node_chunk *chunk)
 {
     const dmb_axial_torsional_site *sites = scene->axial_torsional_sites;
-    const uint32_t most = end - node < PATH_NODES ? end - node : PATH_NODES, count = scene->axial_torsional_site_count;
+    const uint32_t most = end - node < CHUNK_NODES ? end - node : CHUNK_NODES;
+    const uint32_t count = scene->axial_torsional_site_count;
     const int has = site < count && sites[site].node == node;
     uint32_t n = 1;
     while (n < most) {
@@ -97,20 +98,20 @@ static void take_part(const dmb_scene *scene, uint32_t node, uint32_t end, uint3
         if ((next < count && sites[next].node == node + n) != has) break;
         n++;
     }
-    part->node = node;
-    part->count = n;
-    part->site = has ? site : DMB_NONE;
+    chunk->node = node;
+    chunk->count = n;
+    chunk->site = has ? site : DMB_NONE;
 }
 
-static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, const path_part *part)
+static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, const node_chunk *chunk)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    const uint32_t row = scene->layout.row[part->node];
-    const size_t node = part->node;
+    const uint32_t row = scene->layout.row[chunk->node];
+    const size_t node = chunk->node;
     const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
     const dmb_axial_torsional_node_args args = {
-        .count = part->count,
+        .count = chunk->count,
         .dynamic = evaluation->dynamic,
         .tangent = evaluation->tangent,
         .weighs = scene->features & DMB_FEATURE_GRAVITY,
@@ -127,7 +128,7 @@ static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, c
         .velocity = sim->trial.velocity + row,
         .residual = sim->residual + row,
         .scale = sim->scale_row + row,
-        .inertia = sim->inertia_diagonal + scene->layout.diag[part->node],
+        .inertia = sim->inertia_diagonal + scene->layout.diag[chunk->node],
         .potential = evaluation->power[DMB_POWER_POTENTIAL],
         .damping_power = evaluation->power[DMB_POWER_DAMPING],
         .friction_power = evaluation->power[DMB_POWER_FRICTION],
@@ -136,23 +137,23 @@ static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, c
 }
 
 /* Steady sliding has no memory. */
-static const dmb_friction_law *law_for(const dmb_evaluation *evaluation, path_part *part)
+static const dmb_friction_law *law_for(const dmb_evaluation *evaluation, node_chunk *chunk)
 {
     const dmb_friction_law *law = &evaluation->sim->scene->friction_law;
     if (!evaluation->dynamic && !evaluation->slipping) return NULL;
     if (!dmb_friction_has_memory(law) || !evaluation->steady) return law;
-    part->sliding = dmb_sliding_law(law);
-    return &part->sliding;
+    chunk->sliding = dmb_sliding_law(law);
+    return &chunk->sliding;
 }
 
-static void set_contact(const dmb_evaluation *evaluation, path_part *part, dmb_axial_torsional_node_args *args)
+static void set_contact(const dmb_evaluation *evaluation, node_chunk *chunk, dmb_axial_torsional_node_args *args)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    const size_t site = part->site;
+    const size_t site = chunk->site;
     const int curved = !dmb_hole_is_straight(&scene->hole);
     args->sites = scene->axial_torsional_sites + site;
-    args->friction_law = law_for(evaluation, part);
+    args->friction_law = law_for(evaluation, chunk);
     memcpy(args->slip, evaluation->slip, sizeof args->slip);
     args->now_slip = sim->now.axial_torsional_slip + 2 * site;
     args->trial_slip = sim->trial.axial_torsional_slip + 2 * site;
@@ -164,24 +165,24 @@ static void set_contact(const dmb_evaluation *evaluation, path_part *part, dmb_a
         args->sticks = sim->trial.axial_torsional_sticks + site;
     }
     if (!curved || args->friction_law == NULL) return;
-    find_tensions(sim, part->node, part->count, part->tension);
-    args->tension = part->tension;
-    if (evaluation->tangent && !evaluation->inertia_only) args->by_tension = part->by_tension;
+    find_tensions(sim, chunk->node, chunk->count, chunk->tension);
+    args->tension = chunk->tension;
+    if (evaluation->tangent && !evaluation->inertia_only) args->by_tension = chunk->by_tension;
 }
 
-static void assemble_part(dmb_evaluation *evaluation, path_part *part)
+static void assemble_chunk(dmb_evaluation *evaluation, node_chunk *chunk)
 {
-    dmb_axial_torsional_node_args args = args_of(evaluation, part);
-    if (part->site != DMB_NONE) set_contact(evaluation, part, &args);
-    const uint32_t tangents = args.by_tension != NULL ? part->count : 0;
+    dmb_axial_torsional_node_args args = args_of(evaluation, chunk);
+    if (chunk->site != DMB_NONE) set_contact(evaluation, chunk, &args);
+    const uint32_t tangents = args.by_tension != NULL ? chunk->count : 0;
     evaluation->sim->scene->kernels->axial_torsional_nodes(&args);
     evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
     evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
     evaluation->power[DMB_POWER_FRICTION] = args.friction_power;
     for (uint32_t i = 0; i < tangents; i++) {
-        const double *by_tension = part->by_tension + 2 * (size_t)i;
+        const double *by_tension = chunk->by_tension + 2 * (size_t)i;
         if (by_tension[0] != 0.0 || by_tension[1] != 0.0)
-            add_tension_tangent(evaluation->sim, part->node + i, by_tension);
+            add_tension_tangent(evaluation->sim, chunk->node + i, by_tension);
     }
 }
 
@@ -189,17 +190,17 @@ uint32_t dmb_assemble_axial_torsional_nodes(dmb_evaluation *evaluation, uint32_t
                                             uint32_t *site)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    path_part part;
+    node_chunk chunk;
     uint32_t end = first + 1;
     while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_AXIAL_TORSIONAL) end++;
     for (; evaluation->dynamic && rigid_mass < scene->rigid_mass_count; rigid_mass++) {
         if (scene->rigid_masses[rigid_mass].node >= end) break;
         assemble_rigid_mass(evaluation, scene->rigid_masses + rigid_mass);
     }
-    for (uint32_t i = first; i < end; i += part.count) {
-        take_part(scene, i, end, *site, &part);
-        assemble_part(evaluation, &part);
-        if (part.site != DMB_NONE) *site += part.count;
+    for (uint32_t i = first; i < end; i += chunk.count) {
+        next_chunk(scene, i, end, *site, &chunk);
+        assemble_chunk(evaluation, &chunk);
+        if (chunk.site != DMB_NONE) *site += chunk.count;
     }
     return end - first;
 }

@@ -1,5 +1,5 @@
-/* Questions about axial-torsional nodes on the wall: the side force balances weight and tension in a curved hole across
- * the axis (kernel/lanes_axial_torsional_node.h). */
+/* Force on an axial-torsional node by the wall, for queries: the side force balances weight and tension across the
+ * axis, as in the kernels (kernel/lanes_axial_torsional_node.h). */
 #include <string.h>
 
 #include "math/vec3.h"
@@ -8,12 +8,12 @@
 #include "system/assemble/energy.h"
 
 /* Side force [N], its outward unit direction and the tangent of the hole (world). */
-typedef struct side {
+typedef struct side_load {
     double N, direction[3], tangent[3];
-} side;
+} side_load;
 
 static void side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_axial_torsional_site *site,
-                       double tension, side *out)
+                       double tension, side_load *out)
 {
     double point[3], curvature[3], u[3], *tangent = out->tangent;
     dmb_hole_frame(&scene->hole, dmb_axial_torsional_depth(scene, c, site->node), point, tangent, curvature);
@@ -28,7 +28,7 @@ void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configurat
                                     dmb_site_force *out)
 {
     const dmb_axial_torsional_site *site = scene->axial_torsional_sites + p;
-    side press;
+    side_load side;
     double tension = 0.0;
     uint32_t count = 0;
     memset(out, 0, sizeof *out);
@@ -41,10 +41,10 @@ void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configurat
         count++;
     }
     if (count) tension /= count;
-    side_force(scene, configuration, site, tension, &press);
-    out->normal_force = press.N;
-    dmb_vec3_copy(press.direction, out->normal);
-    dmb_vec3_copy(press.tangent, out->tangent);
+    side_force(scene, configuration, site, tension, &side);
+    out->normal_force = side.N;
+    dmb_vec3_copy(side.direction, out->normal);
+    dmb_vec3_copy(side.tangent, out->tangent);
     out->closed = out->normal_force > 0.0;
     memcpy(out->slip, configuration->axial_torsional_slip + 2 * p, sizeof out->slip);
     const int32_t bristles = dmb_scene_has_bristles(scene);
