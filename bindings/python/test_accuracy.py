@@ -1,4 +1,4 @@
-"""The table of measured errors in the user's guide: each row is computed here and compared with what the guide states.
+"""Recomputes each row of the table of measured errors in the user's guide and compares it with the guide.
 `python test_accuracy.py --table` prints the rows for the guide."""
 from __future__ import annotations
 

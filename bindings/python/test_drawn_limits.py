@@ -191,6 +191,7 @@ high = "90 rpm"
         content = {"f": [{"name": "1"}, {"name": "a.b"}, {"name": "é"}, {"name": "3"}, {"name": "twice"}, {"name": "twice"}]}
         for key, number in (("f[a.b].x", "f[1].x"), ("f[é].x", "f[2].x"), ("f[3].x", "f[3].x"), ("f[0].x", "f[0].x"), ("f[9].x", "f[9].x")):
             self.assertEqual(by_number(key, content, typed=True), number)
+        self.assertEqual(by_number("failure[stress].limit", {"failure": [{"kind": "stress", "name": "x"}, {"kind": "stress"}]}), "failure[1].limit")
         self.assertEqual(by_number("f[1].x", content), "f[1].x")  # as the package itself writes it
         with self.assertRaisesRegex(ValueError, r"\[1\] is the number of a table, and f\[0\] is named 1; give that table a name that is not a number"):
             by_number("f[1].x", content, typed=True)

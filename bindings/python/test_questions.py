@@ -304,8 +304,8 @@ class DemandTest(unittest.TestCase):
         self.assertIn("of the 200 of 220 samples that have one", found.sentence(0.95))
 
     def test_weighted_percentiles(self):
-        """Samples of which some stand for several, as the runs of the question auto: the intervals hold the true percentile; equal weights give the
-        values of order statistics, and lost weight widens the interval to both sides."""
+        """Samples with weights, as the runs of the question auto: the intervals contain the true percentile; equal weights give the values of order
+        statistics; lost weight widens the interval on both sides; a sample with nearly all of the weight bounds nothing."""
         random, inside, spread = np.random.default_rng(11), {5: 0, 50: 0, 95: 0}, math.sqrt(1.09)
         for _ in range(100):
             soft = random.standard_normal(400)
@@ -327,6 +327,9 @@ class DemandTest(unittest.TestCase):
             lost = demands.weighted_percentile(values, ones, percent, 0.95, 20.0)
             self.assertTrue(lost[1] <= found[1] and lost[2] >= found[2])
         self.assertEqual(demands.weighted_percentile(values, ones, 95, 0.95, 20.0)[2], math.inf)
+        one = np.where(np.arange(200) == 7, 1e9, 1.0)
+        for percent in inside:
+            self.assertEqual(demands.weighted_percentile(values, one, percent, 0.95), (values[7], -math.inf, math.inf))
 
     def test_weighted_matters(self):
         """A sample with the weight 2 counts as two of them."""
@@ -511,6 +514,17 @@ class AutoTest(FolderTest):
         safe = np.zeros(100, bool)
         one = auto.Stage(safe, safe, safe, safe, 0, auto.FAR).estimate(0.95)
         self.assertEqual((one.probability, one.low, one.high), (0.0, 0.0, 1.0))
+
+    def test_all_runs_are_lost(self):
+        """No probability, also where torque and drag of all samples predict no failure."""
+        self.scene = self.write("lost.toml", self.SCENE + "[sim]\nnewton_tolerance = 1e-14\nmax_iterations = 2\nmax_cuts = 0\n")
+        with unittest.mock.patch.object(auto, "LEAST", 4), unittest.mock.patch.object(auto.CommandOutput, "say") as say:
+            self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto", status=1)
+        out = "\n".join(str(one.args[0]) for one in say.call_args_list)
+        self.assertRegex(out, r"any failure: not assessed, because none of [0-9]+ runs has a margin")
+        self.assertNotIn("interval", out)
+        summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
+        self.assertIsNone(summary["estimates"]["any failure"]["probability"])
 
     def test_against_plain_runs(self):
         """The same decision for every sample that both computed."""

@@ -13,7 +13,7 @@ RADIUS, ENERGY, RATIO, BLADES = 0.108, 60e6, 0.6, 4                             
 DAMPING, FEED, BIT_MASS = 0.5, 30.0 / 3600.0, 5.0                                # [1/s, m/s, kg]
 AREA = math.pi / 4.0 * (OUTER ** 2 - INNER ** 2)
 CUTTING = RADIUS * RATIO * ENERGY * BLADES                                       # [N/m] of the depth that a blade cuts
-#: Speed of rotation [rev/min], damping time of the material [s], what the string does.
+#: Speed of rotation [rev/min], damping time of the material [s], behaviour.
 CONDITIONS = ((100.0, 1e-3, "unstable"), (60.0, 1e-3, "unstable"), (100.0, 3e-3, "stable"))
 ELEMENTS, STEP, END, FIRST, SAMPLING, ORDER = 100, 1e-3, 8.0, 3.0, 10, 8
 

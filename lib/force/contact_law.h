@@ -23,7 +23,7 @@ typedef struct dmb_site {
  * holes. */
 typedef struct dmb_axial_torsional_site {
     double radius; /* [m] */
-    double length; /* [m] it stands for */
+    double length; /* [m] of wall that the contact point represents */
     dmb_id part;
     uint32_t pipe;
     uint32_t node;

@@ -345,7 +345,7 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
 
 /* Of a ring that touches. */
 typedef struct dmb_section_site {
-    dmb_real length;          /* [m] of wall that it stands for */
+    dmb_real length;          /* [m] of wall that it represents */
     dmb_real penetration;     /* [m] d */
     dmb_real normal_slope;    /* [N/m2] dN/ds per metre of pipe where N is not 0 */
     int32_t friction, memory; /* 1: friction acts; by bristles */

@@ -104,8 +104,8 @@ static const char *wanted(int32_t place, int32_t status)
     case DMB_AT_PIPE: return "place must be on a pipe of a string";
     case DMB_AT_PART: return "place must name a pipe of a string, a body or a bit";
     case DMB_AT_STRING:
-        return "place.part must be a string, or {0, 0} for the first, that has what is read: a bit, with a rock law "
-               "for off_bottom, or a flexible first pipe";
+        return "place.part must be a string, or {0, 0} for the first string, with a bit (for off_bottom with a rock law) "
+               "or a flexible first pipe";
     case DMB_AT_BIT: return "place.part must be a bit";
     case DMB_AT_STUCK: return "place.part must be a stuck place";
     case DMB_AT_SPRING: return "place.part must be a spring";
@@ -114,7 +114,7 @@ static const char *wanted(int32_t place, int32_t status)
     case DMB_AT_JOINT: return "place.part must be a joint";
     case DMB_AT_CONSTRAINT: return "place.part must be a joint, coupling, constraint or joint drive with that row";
     case DMB_AT_CONTACT: return "place.pipe must be a contact point, below info.contact_points";
-    case DMB_AT_SCENE: return "switch on what it is read from in the options of the sim (energy_ledger)";
+    case DMB_AT_SCENE: return "it requires the energy ledger: set energy_ledger = 1 in the options of the sim";
     case DMB_AT_VIBRATION:
         return "it is a small motion about the state of a response, stepped sine or state space; in a run take "
                "displacement, world_velocity or body_velocity";

@@ -19,7 +19,7 @@ static void transfer_touch(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32
     if (dmb_scene_has_touch(sim->scene) && dmb_scene_has_touch(from->scene)) DMB_COPY_SITE(site_touch, DMB_TOUCH_SIZE);
 }
 
-/* Copies what the evaluation of a restart overwrites. */
+/* Copies age and touch of a contact once more, because the evaluation at the restart overwrites them. */
 static void transfer_again(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old)
 {
     if (sim->site_age[s] == 0 || from->site_age[old] == 0) return;

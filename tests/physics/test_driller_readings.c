@@ -81,7 +81,7 @@ static void unread(const rig *s, int32_t quantity, dmb_id part, int32_t wanted)
     assert_true(value == 7.0);
     assert_int_equal(dmb_output_check(s->sim, &reading, 1), wanted);
     if (wanted != DMB_ERR_ID)
-        assert_non_null(strstr(dmb_sim_message(s->sim), "that has what is read: a bit, with a rock"));
+        assert_non_null(strstr(dmb_sim_message(s->sim), "with a bit (for off_bottom with a rock law)"));
 }
 
 static dmb_id add_falling(rig *s, int32_t first_kind, double depth, double speed)

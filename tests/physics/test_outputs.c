@@ -404,7 +404,7 @@ static void without_the_ledger(void **state)
     assert_true(dmb_sim_create(r.s.model, &options, &r.s.sim) >= 0);
     const dmb_place nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
     for (int32_t q = DMB_OUTPUT_ENERGY_KINETIC; q <= DMB_OUTPUT_ENERGY_UNEXPLAINED; q++)
-        refused(&r, DMB_ERR_UNSUPPORTED, q, nothing, "switch on what it is read from in the options of the sim");
+        refused(&r, DMB_ERR_UNSUPPORTED, q, nothing, "it requires the energy ledger: set energy_ledger = 1");
     refused(&r, DMB_ERR_UNSUPPORTED, DMB_OUTPUT_ENERGY_ERROR, nothing, "energy_error");
     const dmb_output mass = {nothing, DMB_OUTPUT_MASS, 0};
     double value = 0.0;

@@ -47,7 +47,7 @@ export function begin(library, record, diameter) {
         if (record.static) sim.analysisStatic(revived(record.static, generation));
         const inputs = record.controls.map((one) => model.findInput(one.name));
         return { model, sim, inputs, place: (one) => revived(one, generation) };
-    } catch (error) { // gives back the memory of what was made
+    } catch (error) { // releases the memory of sim and model
         if (!library.broken) for (const one of [made.sim, made.model]) one?.destroy();
         throw error;
     }

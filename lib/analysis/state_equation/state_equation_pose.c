@@ -186,7 +186,8 @@ static double turn_about(const dmb_state_equation *s, const dmb_scene_frame *fra
     return frame->M[column] * z[3] + frame->M[3 + column] * z[4] + frame->M[6 + column] * z[5];
 }
 
-/* Revolutions of joints near which their angles are looked for. */
+/* Predicts the angles [rad] of joints from the rotations of their nodes. An angle is then determined in the revolution
+ * nearest to its prediction. */
 static void expect_turns(const dmb_state_equation *s)
 {
     const dmb_scene *scene = s->work->scene;

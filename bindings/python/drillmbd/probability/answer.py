@@ -157,7 +157,8 @@ class Answer:
     def report(self, name: str, one: Estimate) -> None:
         """An estimate."""
         lost = f", {one.lost} samples without a margin" if one.lost else ""
-        self.output.say(f"{name}: not assessed, because none of {one.samples} samples has a margin" if one.lost == one.samples else
+        tried = f"{one.lost} runs" if one.method == "auto" else f"{one.samples} samples"
+        self.output.say(f"{name}: not assessed, because none of {tried} has a margin" if math.isnan(one.probability) or one.lost == one.samples else
                         f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
                         f"({one.failures} of {one.samples}{lost}; {one.about})")
         one.more.setdefault("effective_samples", float(one.samples - one.lost) if one.method == "monte-carlo" else

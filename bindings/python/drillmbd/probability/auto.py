@@ -66,8 +66,8 @@ class Stage:
             share = _upper_share(count, samples, parts)
             value += sign * (wrong / looked if looked else 0.0) * count / samples
             low, high = (low, high + ends[1] * share) if sign > 0.0 else (low - ends[1] * share, high)
-        value = float(numpy.clip(value, 0.0, 1.0))
         run = int(self.ran.sum())
+        value = float(numpy.clip(value, 0.0, 1.0)) if run or not self.lost else math.nan  # torque and drag alone is no estimate
         return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples, int((self.ran & self.failed).sum()), self.lost,
                         f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} of them near a limit with the "
                         f"weight 1 and {int(far.sum())} others with the weight {1.0 / self.part:.4g}",

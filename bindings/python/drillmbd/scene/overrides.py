@@ -53,22 +53,22 @@ def by_number(key: str, content: dict[str, Any], typed: bool = False) -> str:
     return key_of_path(tuple(found))
 
 
-def _names(holder: Any) -> list[Any]:
-    """Of the items of an array of tables; None of an item without one."""
+def _names(table: str, holder: Any) -> list[Any]:
+    """Of the items of an array of tables; None of an item without one. A failure without a name has that of its kind."""
     items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
-    return [one.get("name") if isinstance(one, dict) else None for one in items]
+    return [one.get("name", one.get("kind") if table == "failure" else None) if isinstance(one, dict) else None for one in items]
 
 
 def _other(number: int, table: str, holder: Any) -> str:
     """The item, other than that with the number, whose name is the number; "" without one."""
-    names = _names(holder)
+    names = _names(table, holder)
     other = names.index(str(number)) if str(number) in names else number
     return f"[{number}] is the number of a table, and {table}[{other}] is named {number}" if other != number else ""
 
 
 def _number(key: str, name: str, table: str, holder: Any) -> int:
     """The number of the item of an array of tables that has a name."""
-    names = _names(holder)
+    names = _names(table, holder)
     if names.count(name) == 1:
         return names.index(name)
     if name in names:
