@@ -104,7 +104,8 @@ static const char *wanted(int32_t place, int32_t status)
     case DMB_AT_PIPE: return "place must be on a pipe of a string";
     case DMB_AT_PART: return "place must name a pipe of a string, a body or a bit";
     case DMB_AT_STRING:
-        return "place.part must be a string, or {0, 0} for the first string, with a bit (for off_bottom with a rock law) "
+        return "place.part must be a string, or {0, 0} for the first string, with a bit (for off_bottom with a rock "
+               "law) "
                "or a flexible first pipe";
     case DMB_AT_BIT: return "place.part must be a bit";
     case DMB_AT_STUCK: return "place.part must be a stuck place";
