@@ -888,9 +888,11 @@ DMB_API int32_t dmb_state_equation_rows(const dmb_state_equation *equation, uint
 /* y of the origin, shape (2 n), and its *time [s], which may be NULL. */
 DMB_API int32_t dmb_state_equation_origin(const dmb_state_equation *equation, double *time, double *y);
 /* rate = f(time, y), shape (2 n) both, one array or two; positions that joints make dependent are solved for from the
- * origin on, so that equal y have equal bits. Errors: DMB_ERR_VALUE, _NOT_FINITE, _CALLBACK, _ROTATION; _GEOMETRY: too
- * far from the origin, or a joint where its angles are not defined; _SINGULAR, _NO_CONVERGENCE: joints cannot be closed
- * with these coordinates. O(elements), with joints more the farther the origin. */
+ * origin on, so that equal y have equal bits. If a constraint of the caller turns parts with time, move the origin at
+ * least once each radian of that motion: branch and revolutions are those nearest to the origin. Errors: DMB_ERR_VALUE,
+ * _NOT_FINITE, _CALLBACK, _ROTATION; _GEOMETRY: too far from the origin, or a joint where its angles are not defined;
+ * _SINGULAR, _NO_CONVERGENCE: joints cannot be closed with these coordinates. O(elements), with joints more the farther
+ * the origin. */
 DMB_API int32_t dmb_state_equation_rate(dmb_state_equation *equation, double time, const double *y, double *rate);
 /* The state y at `time` becomes the origin and y its numbers, maybe of other rows. Errors as above, which change
  * nothing but the sim below; also DMB_ERR_SINGULAR where n would change. */

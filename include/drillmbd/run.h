@@ -94,8 +94,9 @@ DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, voi
 typedef int32_t (*dmb_step_fn)(void *context, const dmb_sim *sim);
 /* From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and
  * each of dmb_sim_advance and _advance_to_event that is accepted for good: not after parts of a divided step, nor after
- * steps that are repeated to locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED. NULL (default): no
- * callback. Neither saved in snapshots nor hashed. Errors as of dmb_sim_set_progress. */
+ * steps that are repeated to locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED.
+ * dmb_analysis_stepped_sine calls it too, and is not ended by it. NULL (default): no callback. Neither saved in
+ * snapshots nor hashed. Errors as of dmb_sim_set_progress. */
 DMB_API int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context);
 
 typedef struct dmb_step_report {

@@ -294,6 +294,28 @@ static void a_linkage_that_turns(void **state)
     }
 }
 
+/* A drive of an open joint moves nothing, however long. */
+static void a_drive_of_an_open_joint(void **state)
+{
+    (void)state;
+    const double none[2] = {0.0, 0.0}, time = 500.0, want = -9.81;
+    rig s;
+    rig_open(&s, 0.0, 0.0, want);
+    const dmb_body_def body = dmb_body_def_default();
+    const dmb_id part = add_body(&s, &body), axle = add_axle(&s, ground_id, none, part, none);
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, axle, DMB_RX, add_constant(&s, 9.0));
+    (void)mechanism_start(&s, NULL);
+    must(&s, dmb_sim_set_joint(s.sim, axle, DMB_JOINT_OPEN));
+    equation e = equation_of(&s);
+    double rate[STATES_MAX];
+    assert_int_equal(e.count, 12);
+    must_hold(dmb_state_equation_rate(e.of, time, e.y, rate));
+    check_close("acceleration", rate[6 + DMB_Z], want, 1e-14);
+    check_close("spin, as before it opened", rate[DMB_RX], 9.0, 1e-14);
+    dmb_state_equation_destroy(&e.of);
+    rig_close(&s);
+}
+
 /* ---- A string, gears, drives: differences of poses --------------------------------------------------------------- */
 
 /* A bent string that a top drive feeds and turns, a body by a universal joint at its end, a geared wheel and a crank
@@ -651,7 +673,7 @@ int main(void)
         cmocka_unit_test(four_bars_by_runge_kutta),     cmocka_unit_test(rates_are_those_of_poses),
         cmocka_unit_test(equal_states_have_equal_bits), cmocka_unit_test(a_string_on_the_wall),
         cmocka_unit_test(a_memory_is_refused_by_name),  cmocka_unit_test(a_state_that_is_none),
-        cmocka_unit_test(a_linkage_that_turns),
+        cmocka_unit_test(a_linkage_that_turns),         cmocka_unit_test(a_drive_of_an_open_joint),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -331,6 +331,7 @@ static int32_t count_drive(const dmb_state_equation *s, uint32_t i, double *stri
     const dmb_scene_drive *drive = s->work->scene->drives + i;
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if (drive->joint == DMB_NONE) return count_row(s, drive->row, s->work->increment[drive->row], strides);
+    if (s->work->joint_state[drive->joint] == DMB_JOINT_OPEN) return DMB_OK;
     const double way = s->work->trial.drives[i].position - s->drive_position[i];
     return count_way(s, s->work->scene->joints[drive->joint].b.node, way, drive->component >= DMB_RX, strides);
 }
