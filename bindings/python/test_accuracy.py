@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import drillmbd as mbd
 
+LIMITS = pathlib.Path(__file__).resolve().parents[2] / "lib" / "theory" / "limits.md"
 GUIDE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "README.md"
 OUTER, INNER, E = 0.073, 0.055, 210e9
 AREA = math.pi / 4 * (OUTER**2 - INNER**2)
@@ -140,6 +141,30 @@ def deflection_error():
     return sim.pose(mbd.station(string, 0, 1.0)).displacement[2] / right - 1.0
 
 
+def oscillation(ratio, radius, place, speed, steps):
+    """Course of (x, v/w) of 1 kg on a spring, w = ratio/h, by steps h of 1 ms; place and speed are those of x and v/w at the start, in 0.1 mm."""
+    model, w = mbd.Model(), ratio / 1e-3
+    model.set_environment(gravity=(0.0, 0.0, 0.0))
+    body = model.add_body(mass=1.0, inertia=(1.0, 1.0, 1.0, 0, 0, 0), position=(1e-4 * place, 0.0, 0.0), velocity=(1e-4 * speed * w, 0, 0, 0, 0, 0))
+    model.add_spring(place_b=body, offset_a=(-10.0, 0.0, 0.0), free_length=10.0, stiffness=w * w)
+    model.compile()
+    sim, course = model.sim(spectral_radius=radius), []
+    for _ in range(steps):
+        sim.step(1e-3)
+        course.append((1e4 * sim.pose(body).displacement[0] + place, 1e4 * sim.motion(body).velocity[0] / w))
+    return course
+
+
+def largest_energy(ratio, radius):
+    """Over the initial one, of all initial states c: |S c|^2/|c|^2, S = [a b] of two courses, is at most (p + r + sqrt((p - r)^2 + 4 q^2))/2 with
+    p = a.a, q = a.b, r = b.b. The steps end before rounding is all that is left."""
+    most, steps = 1.0, 6 if radius == 0.0 else 15 if radius < 0.6 else 60
+    for a, b in zip(oscillation(ratio, radius, 1.0, 0.0, steps), oscillation(ratio, radius, 0.0, 1.0, steps)):
+        p, q, r = (x[0] * y[0] + x[1] * y[1] for x, y in ((a, a), (a, b), (b, b)))
+        most = max(most, 0.5 * (p + r + math.hypot(p - r, 2.0 * q)))
+    return most
+
+
 #: by the guide's first column: against what, and the error
 ROWS: dict[str, tuple[str, Callable[[], float]]] = {
     "deflection of a clamped pipe, 1 element": ("Timoshenko's beam", deflection_error),
@@ -172,6 +197,14 @@ class AccuracyTest(unittest.TestCase):
                           GUIDE.read_text(encoding="utf-8"), re.M)
         self.assertIsNotNone(table)
         self.assertEqual(table.group(1).splitlines(), rows_measured())
+
+    def test_energy_of_motions_that_steps_do_not_resolve(self):
+        text = " ".join(LIMITS.read_text(encoding="utf-8").split())
+        wanted = ", ".join("{:.3g}, {:.3g} and {:.3g} {} {:g}".format(
+            *(largest_energy(ratio, radius) for ratio in (3.0, 10.0, 100.0)),
+            "times the initial energy with spectral radius" if radius == 0.0 else "with", radius) for radius in (0.0, 0.5, 0.8, 0.95))
+        self.assertIn(wanted + ", and never above it with 1 (", text)
+        self.assertLess(max(largest_energy(ratio, 1.0) for ratio in (3.0, 10.0, 100.0)), 1.0 + 1e-6)
 
 
 if __name__ == "__main__":
