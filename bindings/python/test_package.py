@@ -470,6 +470,21 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(sim.advance(1e-3).status, mbd.OK)
         self.assertEqual(len(times), 4)
 
+    def test_on_step_ends_a_run(self):
+        model = mbd.Model()
+        model.add_pipes(2, elements=1)
+        model.compile()
+        for step in (1e-5, None):  # many steps in a call, and steps of the library's choice
+            for last in (1, 2, 50):
+                sim = model.sim(step_max=1e-5)
+                times = []
+                sim.on_step = lambda time: times.append(time) or len(times) == last
+                at = sim.run(1e-3, step=step)
+                self.assertEqual((len(times), at.steps, at.time), (last, last, times[-1]))
+                at = sim.run(1e-3, step=step)
+                self.assertAlmostEqual(at.time, 1e-3, 12)
+                self.assertEqual(times[-1], at.time)
+
     def test_state_equation(self):
         """By classical Runge-Kutta against the library's own steps."""
         model = mbd.Model()

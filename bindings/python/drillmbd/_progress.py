@@ -71,13 +71,15 @@ class Teller:
 
         self.call = PROGRESS_FN(call)
         self.on_step: Callable[[float], Any] | None = None
+        self.ended = False  # the function of accepted steps has ended a call
 
         def stepped(_context: Any, sim: Any) -> int:
             try:
-                return 1 if self.on_step is not None and self.on_step(float(_lib.dmb_sim_time(sim))) else 0
+                ends = self.on_step is not None and bool(self.on_step(float(_lib.dmb_sim_time(sim))))
             except BaseException as error:  # must not unwind through C
-                self.raised = error
-                return 1
+                self.raised, ends = error, True
+            self.ended = self.ended or ends
+            return 1 if ends else 0
 
         self.step_call = STEP_FN(stepped)
 

@@ -179,7 +179,7 @@ class Loop:
         self.number = lengths.done(sim.time)
 
     def go(self) -> Progress:
-        """To the end, or to where the progress function stops it."""
+        """To the end, or to where the progress function or that of accepted steps stops it."""
         while self.number < self.lengths.count:
             before, began = self.sim.time, clock.monotonic()
             try:
@@ -191,7 +191,7 @@ class Loop:
             if not going:
                 break
             take_all(self.takers, self.at)
-            if self._told(clock.monotonic(), began):
+            if self.sim._teller.ended or self._told(clock.monotonic(), began):
                 break
         self.at.time, self.at.elapsed = self.sim.time, clock.monotonic() - self.started
         return self.at
@@ -200,6 +200,7 @@ class Loop:
         """One call; False where the progress function of the sim ended it."""
         count = self._count() if self.lengths.length else 1
         self.number += count
+        self.sim._teller.ended = False
         if not self.lengths.length:
             report = self.sim.advance(self.lengths.target(self.number))
         elif count == 1:

@@ -105,9 +105,9 @@ class Sim(Handle, analysis.Analyses):
     @property
     @mirrors("dmb_sim_set_on_step")
     def on_step(self) -> Callable[[float], Any] | None:
-        """function(time): called after each accepted step of step, steps, advance and advance_to_event; it may query and
-        record the sim. It ends the call by returning True (NOTE_STOPPED) or by raising, which comes out of the call. None:
-        no callback (default)."""
+        """function(time): called after each accepted step of step, steps, advance, advance_to_event and run; it may query and
+        record the sim. It ends the call by returning True (NOTE_STOPPED before its end) or by raising, which comes out of
+        the call. None: no callback (default)."""
         return self._teller.on_step
 
     @on_step.setter
