@@ -45,7 +45,9 @@ static int read_bytes(reader *r)
     return r->failed ? -1 : 0;
 }
 
-/* ---- Numbers: 0 after a failure ---------------------------------------------------------------------------------- */
+/* ---- Numbers: 0 after a failure ----------------------------------------------------------------------------------
+ * As in lib/model/record_read.c, written again: a unit is built from public headers and a library whose internal
+ * functions are hidden, and a reader of bytes is no part of the public interface. */
 static uint64_t get(reader *r, unsigned width)
 {
     uint64_t value = 0;

@@ -86,9 +86,75 @@ static void test_wrong_contents(void **state)
     close_rig(&r);
 }
 
+/* ---- Damage ------------------------------------------------------------------------------------------------------ */
+static void write_bytes(const char *path, const unsigned char *bytes, size_t size)
+{
+    remove(path); /* a file that is written over is flushed to the disk */
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int opens(const char *path, const unsigned char *bytes, size_t size)
+{
+    scene_file scene;
+    write_bytes(path, bytes, size);
+    const int status = scene_open(&scene, path, NULL, NULL);
+    if (status != 0) assert_true(scene.message[0] != 0);
+    scene_close(&scene);
+    return status == 0;
+}
+
+/* The header agrees with what follows it: only the contents are wrong. */
+static void sign(unsigned char *bytes, size_t size)
+{
+    const uint32_t sum = scene_checksum(bytes + SCENE_HEADER, size - SCENE_HEADER);
+    for (int i = 0; i < 8; ++i) bytes[16 + i] = (unsigned char)((uint64_t)size >> 8 * i);
+    for (int i = 0; i < 4; ++i) bytes[SCENE_CHECKSUM_AT + i] = (unsigned char)(sum >> 8 * i);
+}
+
+/* A file that ends anywhere or has one wrong byte is refused; so is one that ends anywhere or has another word
+ * anywhere, with the checksum of that: it is refused, or read as the other scene that it describes. */
+static void test_damage_at_every_byte(void **state)
+{
+    (void)state;
+    enum { ROOM = 1 << 16 };
+    static unsigned char bytes[ROOM], damaged[ROOM];
+    rig r;
+    char path[128], other[140];
+    scene_settings settings = scene_settings_default();
+    open_rig(&r, 0);
+    settings.outputs = r.outputs;
+    settings.output_count = OUTPUTS;
+    snprintf(path, sizeof path, "%s/scene.bin", r.folder);
+    snprintf(other, sizeof other, "%s.damaged", path);
+    assert_int_equal(scene_write(path, TOKEN, r.model, &settings), 0);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, ROOM, file);
+    fclose(file);
+    assert_true(size < ROOM && opens(other, bytes, size));
+    for (size_t at = 0; at < size; ++at) {
+        memcpy(damaged, bytes, size);
+        assert_false(opens(other, damaged, at));
+        if (at > SCENE_HEADER) sign(damaged, at);
+        assert_false(opens(other, damaged, at));
+        memcpy(damaged, bytes, size);
+        damaged[at] ^= 0x40;
+        assert_false(opens(other, damaged, size));
+        if (at < SCENE_HEADER + SCENE_TOKEN || at + 4 > size) continue;
+        memset(damaged + at, 0xff, 4); /* a count of 4294967295 */
+        sign(damaged, size);
+        (void)opens(other, damaged, size);
+    }
+    remove(other);
+    close_rig(&r);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_settings_come_back),
-                                       cmocka_unit_test(test_wrong_contents)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_settings_come_back), cmocka_unit_test(test_wrong_contents),
+                                       cmocka_unit_test(test_damage_at_every_byte)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
