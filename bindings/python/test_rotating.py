@@ -391,6 +391,19 @@ class RangeTest(FolderTest):
         CommandOutput.note(out, mbd.NOTE_UNSTABLE, "static", "static: another text")
         self.assertIn("not stable", out.note_text.call_args[0][0])
 
+    def test_a_gap_between_the_bands_of_a_range(self):
+        """The bands of both ends are apart, and that of the middle lies between them: speeds there are not called free."""
+        found = {}
+        for high in (1.1, 1.2):
+            scatter = f'[[variability.scatter]]\nkey = "hole.diameter"\nrelative = true\ndistribution = "uniform"\nlow = 1\nhigh = {high}\n'
+            self.scene = self.write(f"gap{high}.toml", SCENE.replace('threshold = 100', 'threshold = 3000').replace('speed_high = "240 rpm"', 'speed_high = "300 rpm"') + scatter)
+            out, summary = self.answer("speeds")
+            found[high] = summary["speeds_range"]["bands_rpm"]
+            self.assertEqual("speeds between these bands are not shown to be free" in out, len(found[high]) > 1, out)
+        self.assertGreater(len(found[1.2]), 1, found)
+        (_, low), (high, _) = found[1.2][:2]
+        self.assertTrue(any(a < high and b > low for a, b in found[1.1]), found)
+
     def test_band_over_range(self):
         """The band of the range begins where that of its widest hole does, and covers that of each breakpoint."""
         text = SCENE.replace('threshold = 100', 'threshold = 1000')

@@ -80,6 +80,8 @@ def bands_over_range(scene: Scene, out: CommandOutput, found: Found) -> list[tup
     text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else f"no critical speed in {len(cases) - lost} of them")
     if lost:
         text += f"; {lost} of the {len(cases)} cases are not assessed, or not for all outputs and orders"
+    if len(ranges) > 1:
+        text += "; speeds between these bands are not shown to be free, because bands move as the values change between the cases"
     how = "all combinations" if len(parts) <= MOST_BREAKPOINTS else "one at its end, the others in the middle"
     out.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):
