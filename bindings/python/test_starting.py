@@ -75,6 +75,20 @@ class StartingTest(unittest.TestCase):
             self.assertIn("of 100;", out)
             self.assertNotIn("without a margin", out)
 
+    def test_the_strength_that_torque_and_drag_asks_for(self):
+        """With the commented limits of `new` the stress is not assessed; with the key that the message names it is."""
+        text = re.sub(r"(?m)^# (\[limits\]|torque =|push =|pull =|yield_stress =)", r"\1", said("new", "drainage")[1])
+        with tempfile.TemporaryDirectory() as folder:
+            target = pathlib.Path(folder, "hole.toml")
+            target.write_text(text, encoding="utf-8")
+            out = said("torque-drag", str(target))[1]
+            self.assertIn("give it in [[string.pipes]] (yield_stress of [limits] is compared by report and probability)", out)
+            target.write_text(text.replace("[[string.pipes]]\n", '[[string.pipes]]\nyield_strength = "550 MPa"\n'), encoding="utf-8")
+            status, out, _ = said("torque-drag", str(target))
+            self.assertEqual(status, 0)
+            self.assertNotIn("stress: not assessed", out)
+            self.assertNotIn("limits of the rig: not assessed", out)
+
     def test_new_refuses(self):
         with tempfile.TemporaryDirectory() as folder:
             target = str(pathlib.Path(folder, "hole.toml"))

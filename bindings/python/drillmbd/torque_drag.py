@@ -183,7 +183,8 @@ def _write_rows(sim: Sim, out: CommandOutput, curves: Curves, settings: Settings
         result[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
                              **{key_of(name, FIELDS[name]): finite(value) for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
-        out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
+        out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength; give it in [[string.pipes]]"
+                + (" (yield_stress of [limits] is compared by report and probability)" if "yield_stress" in out.scene.limits else ""))
     out.summary.setdefault("torque_drag", {})[curves.name] = result
     out.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
         word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
