@@ -647,6 +647,17 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(list(modes.frequencies), sorted(mode.frequency for mode in modes))
 
     @there("numpy", "matplotlib.pyplot")
+    def test_names_with_brackets_in_legends(self):
+        """A legend is the head of the column without its unit, also if the part has brackets in its name."""
+        from drillmbd import plots
+        import numpy
+        heads = ["time [s]", "drive_force of drive table [left] [N m]", "drive_force of drive table [right] [N m]"]
+        figure = plots.history(numpy.zeros((2, 3)), heads)
+        self.assertEqual([one.get_text() for one in figure.axes[0].get_legend().get_texts()],
+                         ["drive_force of drive table [left]", "drive_force of drive table [right]"])
+        mbd.plots.need("matplotlib.pyplot").close("all")
+
+    @there("numpy", "matplotlib.pyplot")
     def test_torsion_is_drawn(self):
         """A mode that only twists shows its twist, and no rounding of displacements drawn large."""
         from drillmbd import plots

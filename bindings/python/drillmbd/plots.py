@@ -141,7 +141,7 @@ def history(table: Any, columns: Sequence[str], title: str = "") -> Any:
     for (axes,), unit in zip(grid, panels):
         shown = [i for i, one in enumerate(units) if one == unit]
         for number, i in enumerate(shown):
-            _curve(axes, table[:, 0], table[:, 1 + i], columns[1 + i].split(" [")[0], number)
+            _curve(axes, table[:, 0], table[:, 1 + i], words_of(columns[1 + i]), number)
         axes.set_ylabel(f"[{unit}]" if len(shown) > 1 else columns[1 + shown[0]])
         _legend(axes)
     grid[-1][0].set_xlabel("time [s]")
@@ -152,6 +152,11 @@ def history(table: Any, columns: Sequence[str], title: str = "") -> Any:
 def recording(recorder: Recorder, title: str = "") -> Any:
     """The columns of a recorder over time."""
     return history(recorder.table, recorder.columns, title)
+
+
+def words_of(name: str) -> str:
+    """The head of a column without its unit; names of parts may have brackets too."""
+    return name.rpartition(" [")[0] or name
 
 
 def _unit(name: str) -> str:
@@ -395,7 +400,7 @@ def study(values: Sequence[float], columns: dict[str, Sequence[float]], paramete
     for (axes,), unit in zip(grid, panels):
         shown = [name for name in columns if _unit(name) == unit]
         for number, name in enumerate(shown):
-            axes.plot(values, columns[name], marker="o", markersize=4, label=name.split(" [")[0], **_style(number))
+            axes.plot(values, columns[name], marker="o", markersize=4, label=words_of(name), **_style(number))
         axes.set_ylabel(f"[{unit}]" if len(shown) > 1 else shown[0])
         if log:
             _log(axes, "x")

@@ -16,7 +16,7 @@ from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .language import Foreign, Phrase, joined, phrase
 from .operating import Operating, has_rock_law, operating, operations_of, polar_moduli
-from .plots import COLOURS
+from .plots import COLOURS, words_of
 from .profile import Profile, values_of
 from .commands import columns_of
 from .report_basis import Row, assumptions, headline, limits_at_the_rig
@@ -388,7 +388,7 @@ class Study:
             table = recorder.table
             for number, head in enumerate(columns_of(self.scene, recorder, self.units)[1:]):
                 name, factor = self.units.head(head), self.units.factor_of(head)
-                self.figures.append((name.split(" [")[0], phrase("In the run."), {
+                self.figures.append((words_of(name), phrase("In the run."), {
                     "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
                     "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
 
