@@ -17,6 +17,7 @@ from .sim import Sim
 PART, LEAST_STEPS = 0.1, 20   #: of the run that is verified; it has as many steps at least
 NOTABLE = 0.05                #: difference of largest values, of the larger one, above which a note is made
 GROWS, SMALL = 10.0, 1e-4     #: energy error of the last tenth over that of the first, and over the energy, above which a note is made
+LARGE = 0.05                  #: energy error over the energy, above which the run is said to be unreliable
 MOST_NUMBERS = 50_000_000
 SLOW_WHIRL = 0.69             #: error of the rate of slow whirl over (W h)^2, W the speed of rotation and h the step (physics_rotor_on_joint)
 TURN_NOTABLE = 0.12           #: [rad] W h above which a note is made: an error of 1 %
@@ -180,6 +181,8 @@ def energy_error(sim: Sim, out: CommandOutput, first: FirstTenth, complete: bool
     energy = sim.energy()
     out.summary.update(energy_error=energy.error, energy_error_growth=energy.growth)
     text = f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present"
+    if not abs(energy.error) <= LARGE:  # also NaN
+        out.note_text("the energy error is larger than 5 % of the energies of the run: its results are not reliable; run with a tenth of the step and compare")
     if complete and first.balance is not None and energy.scale > 0.0:
         begin = abs(first.balance) / energy.scale
         out.summary["energy_error_first_tenth"] = begin
