@@ -338,6 +338,25 @@ static void speed_of_a_drive_without_a_joint(void **state)
     end(&s);
 }
 
+/* A profile is of pipes, for queries and responses alike. */
+static void profile_of_a_body(void **state)
+{
+    (void)state;
+    static const int32_t asked[] = {DMB_PROFILE_X, DMB_PROFILE_DISPLACEMENT_Z, DMB_PROFILE_ROTATION,
+                                    DMB_PROFILE_VELOCITY_AXIAL};
+    scene s;
+    double value;
+    memset(&s, 0, sizeof s);
+    describe_body(&s, DMB_FREE_ALL, DMB_JOINT_REVOLUTE, 0);
+    start(&s);
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        s.output.quantity = DMB_OUTPUT_PROFILE + asked[i];
+        assert_int_equal(dmb_query_output(s.sim, &s.output, &value), DMB_ERR_ID);
+        expect(&s, DMB_ERR_ID, "output 0, profile_", "must be on a pipe of a string");
+    }
+    end(&s);
+}
+
 /* A body that slides along and turns about the x axis as it was made to: its axes turn in those of the world. */
 static void outputs_of_what_moves(void **state)
 {
@@ -712,6 +731,7 @@ int main(void)
         cmocka_unit_test(eccentric_masses_that_nothing_feels),
         cmocka_unit_test(fields_out_of_bounds),
         cmocka_unit_test(speed_of_a_drive_without_a_joint),
+        cmocka_unit_test(profile_of_a_body),
         cmocka_unit_test(outputs_of_what_moves),
         cmocka_unit_test(controller_at_its_limit),
         cmocka_unit_test(friction_of_bristles),

@@ -183,6 +183,11 @@ static int32_t of_place(const meaning *m, int32_t q)
 /* Of a profile what has components. */
 static int32_t of_profile(const meaning *m, int32_t quantity)
 {
+    const dmb_model *model = m->sim->model;
+    if (dmb_model_part_index(model, m->out->place.part, DMB_PART_STRING) >= m->sim->scene->string_count)
+        return refuse(m, DMB_ERR_ID,
+                      "place must be on a pipe of a string; of a body or bit ask for position, "
+                      "displacement or rotation");
     if (quantity >= DMB_PROFILE_X && quantity <= DMB_PROFILE_Z)
         return of_place(m, DMB_OUTPUT_POSITION_X + quantity - DMB_PROFILE_X);
     if (quantity >= DMB_PROFILE_DISPLACEMENT_X && quantity <= DMB_PROFILE_DISPLACEMENT_Z)
