@@ -887,6 +887,12 @@ public:
     {
         return dmb_sim_advance_to_event(handle_, to, event, report);
     }
+    DRILLMBD_NODISCARD std::int32_t try_steps_to_event(double duration, std::uint32_t count,
+                                                       std::uint32_t *done = nullptr, dmb_event_report *event = nullptr,
+                                                       dmb_step_report *report = nullptr) noexcept
+    {
+        return dmb_sim_steps_to_event(handle_, duration, count, done, event, report);
+    }
     DRILLMBD_NODISCARD std::int32_t try_set_drive(drive_id drive, double value) noexcept
     {
         return dmb_sim_set_drive(handle_, drive, value);
@@ -972,6 +978,14 @@ public:
     {
         dmb_event_report event = dmb_event_report_default();
         done(try_advance_to_event(to, &event, report));
+        return event;
+    }
+    // At most `count` equal steps; `crossing` of the result: time of the first event within the last of them.
+    dmb_event_report steps_to_event(double duration, std::uint32_t count, std::uint32_t *finished = nullptr,
+                                    dmb_step_report *report = nullptr)
+    {
+        dmb_event_report event = dmb_event_report_default();
+        done(try_steps_to_event(duration, count, finished, &event, report));
         return event;
     }
     void set_drive(drive_id which, double value) { done(try_set_drive(which, value)); }

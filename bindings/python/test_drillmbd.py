@@ -265,6 +265,12 @@ class SceneTest(unittest.TestCase):
             self.assertAlmostEqual(sim.time, 0.02, delta=2e-9)
             self.assertEqual(sim.advance_to_event(1.0), ["far"])
             self.assertEqual((sim.advance_to_event(1.0), sim.time), ([], 1.0))
+        with model.sim() as sim:
+            names, crossing = sim.steps_to_event(0.015, 10)
+            self.assertEqual((names, sim.time), (["near", "with it"], 0.03))
+            self.assertAlmostEqual(crossing, 0.02, delta=1e-12)
+            self.assertEqual(sim.steps_to_event(0.015, 10)[0], ["far"])
+            self.assertEqual(sim.steps_to_event(0.015, 3)[0], [])
         self.assertTrue(pickle.loads(pickle.dumps(model)).same_scene(model))
 
     def test_inputs(self):

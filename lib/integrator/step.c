@@ -337,23 +337,35 @@ static int32_t check_steps(dmb_sim *sim, double duration, const dmb_step_report 
     return status < 0 ? status : dmb_stepping_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
 }
 
-static int32_t steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report)
+/* After an accepted step: the watch, whose failure is that of the call, and the caller's function. */
+static int32_t look(dmb_sim *sim, const dmb_step_watch *watch, int32_t *worst, dmb_message *message, int *ended)
+{
+    const int32_t seen = watch != NULL ? watch->look(watch->context) : DMB_OK;
+    if (seen < 0) note_step(sim, seen, worst, message);
+    *ended = dmb_stepping_ends(sim);
+    return seen;
+}
+
+int32_t dmb_steps_watched(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report,
+                          const dmb_step_watch *watch)
 {
     dmb_step_report sum = dmb_step_report_default();
     dmb_message message;
     uint32_t accepted = 0;
-    int32_t worst = DMB_OK, ended = 0, status = check_steps(sim, duration, report);
+    int ended = 0;
+    int32_t worst = DMB_OK, seen = 0, status = check_steps(sim, duration, report);
     if (status < 0) return status;
-    while (status >= 0 && accepted < count && !ended) {
+    while (status >= 0 && seen == 0 && accepted < count && !ended) {
         dmb_step_report one = dmb_step_report_default();
         dmb_progress_at(sim, (double)accepted / count);
         status = step(sim, duration, &one);
         add_report(&sum, &one);
         note_step(sim, status, &worst, &message);
-        accepted += status >= 0;
-        ended = status >= 0 && dmb_stepping_ends(sim);
+        if (status < 0) break;
+        accepted++;
+        seen = look(sim, watch, &worst, &message, &ended);
     }
-    if (ended && accepted < count) {
+    if (ended && seen == 0 && accepted < count) {
         dmb_stepping_tell_end(sim, sum.steps);
         note_step(sim, DMB_NOTE_STOPPED, &worst, &message);
     }
@@ -367,7 +379,7 @@ static int32_t steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *do
 int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report)
 {
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
-    return status < 0 ? status : dmb_sim_leave(sim, steps(sim, duration, count, done, report));
+    return status < 0 ? status : dmb_sim_leave(sim, dmb_steps_watched(sim, duration, count, done, report, NULL));
 }
 
 /* dmb_sim_advance: steps whose local error satisfies the tolerances. The estimate is of third order, therefore

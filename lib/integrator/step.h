@@ -45,6 +45,16 @@ int32_t dmb_stepping_stops(dmb_sim *sim, double time, const dmb_stepping *steppi
 /* Message of a call that the function of accepted steps ended. */
 void dmb_stepping_tell_end(dmb_sim *sim, uint32_t steps);
 
+/* Looks at the sim after each accepted call of equal steps: 0, 1 to end the call, or a negative status, which ends it.
+ */
+typedef struct dmb_step_watch {
+    int32_t (*look)(void *context);
+    void *context;
+} dmb_step_watch;
+/* dmb_sim_steps with a watch (NULL: none). */
+int32_t dmb_steps_watched(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report,
+                          const dmb_step_watch *watch);
+
 /* Single error-controlled steps, for calls that stop elsewhere than dmb_sim_advance. */
 
 /* [s] Length of the first error-controlled step. */

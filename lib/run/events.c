@@ -5,6 +5,7 @@
  */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "integrator/step.h"
 #include "query/query.h"
@@ -15,7 +16,7 @@
 DMB_DECLARE_STRUCT(dmb_step_report)
 
 /* clang-format off */
-DMB_DEFINE_INIT(dmb_event_report, 32, {.count = 0})
+DMB_DEFINE_INIT(dmb_event_report, 40, {.crossing = (double)NAN})
 /* clang-format on */
 
 enum { MARGIN = 100, SLOW = 2, HALVINGS = 20 };
@@ -28,11 +29,14 @@ typedef struct gaps {
 typedef struct hunt {
     dmb_sim *sim;
     dmb_stepping stepping;
-    double end;     /* [s] where the call is to end */
-    double wanted;  /* [s] step length of the control */
-    gaps before;    /* at the start of the step */
-    uint64_t told;  /* events */
-    double located; /* [s] width of the bracket */
+    double end;      /* [s] where the call is to end */
+    double wanted;   /* [s] step length of the control */
+    gaps before;     /* at the start of the step */
+    uint64_t told;   /* events */
+    double located;  /* [s] width of the bracket */
+    double crossing; /* [s] of the first of them */
+    double from;     /* [s] start of the step */
+    int32_t equal;   /* 1: equal steps, which do not end at crossings */
 } hunt;
 
 static int32_t ask(dmb_sim *sim, gaps *found)
@@ -93,6 +97,52 @@ static uint64_t crossings(const hunt *h, const gaps *after)
     return found;
 }
 
+/* ---- Time of a crossing ------------------------------------------------------------------------------------------ */
+
+/* Output less its level at three ends of steps, signed so that it crosses from <= 0 to > 0 in the last step. */
+typedef struct parabola {
+    double slope, bend; /* Newton's form from the start of the last step: gap + slope s + bend s (s - length) */
+    double gap, length;
+} parabola;
+
+static parabola parabola_of(const double past[DMB_PAST_SIZE], double before, double after, double from, double to)
+{
+    const double sign = after > 0.0 || before < 0.0 ? 1.0 : -1.0, earlier = from - past[DMB_PAST_TIME];
+    parabola p = {.gap = sign * before, .length = to - from};
+    p.slope = sign * (after - before) / p.length;
+    /* the output and the time are those in which the step before has ended: nothing has changed between */
+    const int follows = !(past[DMB_PAST_END] < before || past[DMB_PAST_END] > before) &&
+                        !(past[DMB_PAST_END_TIME] < from || past[DMB_PAST_END_TIME] > from);
+    if (follows && earlier > 0.0)
+        p.bend = (p.slope - sign * (before - past[DMB_PAST_GAP]) / earlier) / (p.length + earlier);
+    return p;
+}
+
+/* [s] Time since the start of the step at which it changes sign: bisection, since the signs at both ends are given. */
+static double root_of(const parabola *p)
+{
+    double low = 0.0, high = p->length;
+    for (int k = 0; k < DBL_MANT_DIG; k++) {
+        const double s = 0.5 * (low + high);
+        if (p->gap + s * (p->slope + p->bend * (s - p->length)) > 0.0)
+            high = s;
+        else
+            low = s;
+    }
+    return high;
+}
+
+/* [s] Time at which the output of an event crosses its level in the step that is done: its end, where steps end at
+ * crossings. */
+static double crossing_time(const hunt *h, uint32_t i, double after)
+{
+    const double to = h->sim->clock->time;
+    if (!h->equal) return to;
+    const double *past = h->sim->event_past + DMB_PAST_SIZE * (size_t)i;
+    const parabola p = parabola_of(past, h->before.value[i], after, h->from, to);
+    return fmin(h->from + root_of(&p), to);
+}
+
 /* ---- Memory of what is held -------------------------------------------------------------------------------------- */
 
 /* At the start of a call: outputs beyond their level, and not held since a crossing, count only after they have
@@ -117,24 +167,44 @@ static double hold_end(const dmb_sim *sim)
     return first;
 }
 
+/* The bit of an event that crossed at `time`, which is reported. */
+static uint64_t tell_crossing(hunt *h, uint32_t i, double time)
+{
+    h->crossing = fmin(h->crossing, time); /* of NaN and a number the number */
+    return UINT64_C(1) << i;
+}
+
+/* [s] Time up to which an output has been beyond its level in the step. */
+static double beyond_until(const hunt *h, uint32_t i, double after)
+{
+    if (after > 0.0) return h->sim->clock->time;
+    return h->equal ? crossing_time(h, i, after) : -(double)INFINITY; /* there, holds end at ends of steps */
+}
+
+static uint64_t take_held(hunt *h, uint32_t i, double after, int crossed)
+{
+    double *since = h->sim->event_since + i;
+    uint64_t told = 0;
+    if (crossed) *since = crossing_time(h, i, after);
+    if (isfinite(*since) && beyond_until(h, i, after) >= *since + h->sim->scene->events[i].hold) {
+        told = tell_crossing(h, i, *since);
+        *since = (double)INFINITY;
+    }
+    if (!(after > 0.0)) *since = (double)NAN;
+    return told;
+}
+
 /* After a step: crossings start their hold, outputs that returned end it, and outputs held long enough are reported. */
 static uint64_t take(hunt *h, const gaps *now, uint64_t crossed)
 {
     dmb_sim *sim = h->sim;
     uint64_t told = 0;
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
-        const uint64_t bit = UINT64_C(1) << i;
-        if (now->value[i] != 0.0) sim->event_side[i] = side_of(now->value[i]);
-        if (is_either(sim, i)) {
-            told |= crossed & bit;
-            continue;
-        }
-        if (!(now->value[i] > 0.0)) sim->event_since[i] = (double)NAN;
-        if (crossed & bit) sim->event_since[i] = sim->clock->time;
-        if (!isfinite(sim->event_since[i]) || sim->clock->time < sim->event_since[i] + sim->scene->events[i].hold)
-            continue;
-        told |= bit;
-        sim->event_since[i] = (double)INFINITY;
+        const double after = now->value[i];
+        const int here = (int)(crossed >> i & 1);
+        if (!is_either(sim, i)) told |= take_held(h, i, after, here);
+        if (is_either(sim, i) && here) told |= tell_crossing(h, i, crossing_time(h, i, after));
+        if (after != 0.0) sim->event_side[i] = side_of(after);
     }
     return told;
 }
@@ -324,42 +394,114 @@ static int32_t report_event(const hunt *h, dmb_event_report *event)
     answer.events = h->told;
     answer.time = h->sim->clock->time;
     answer.located = h->located;
+    answer.crossing = h->crossing;
     return dmb_event_report_write(event, &answer);
+}
+
+static int32_t check_report(const dmb_event_report *event)
+{
+    dmb_event_report unused;
+    return event == NULL ? DMB_OK : dmb_event_report_read(&unused, event);
+}
+
+/* Outputs at the start of a call. */
+static int32_t begin(hunt *h)
+{
+    dmb_sim *sim = h->sim;
+    if (sim->scene->event_count == 0) {
+        dmb_message_set(&sim->message, "advance to event: the model has no events; add one, or use the call without "
+                                       "events");
+        return DMB_ERR_VALUE;
+    }
+    const int32_t status = ask(sim, &h->before);
+    if (status >= 0) look_around(sim, &h->before);
+    return status;
+}
+
+/* The step is accepted even where an output cannot be asked after it: the caller's function sees it, and the message
+ * remains that of the output. */
+static void end_step(hunt *h, int32_t status)
+{
+    const dmb_message message = h->sim->message;
+    const int32_t stopped = dmb_stepping_stops(h->sim, h->end, &h->stepping);
+    if (status < 0)
+        h->sim->message = message;
+    else
+        h->stepping.stopped = stopped;
+}
+
+static int32_t finish(hunt *h, int32_t status, dmb_event_report *event)
+{
+    if (status < 0) return status;
+    (void)report_event(h, event);
+    if (h->told == 0) return status;
+    tell(h);
+    return DMB_NOTE_EVENT;
 }
 
 static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report)
 {
-    dmb_event_report unused;
-    hunt h = {.sim = sim, .end = time};
-    int32_t status = event == NULL ? DMB_OK : dmb_event_report_read(&unused, event);
+    hunt h = {.sim = sim, .end = time, .crossing = (double)NAN};
+    int32_t status = check_report(event);
     if (status >= 0) status = dmb_stepping_begin(sim, report, &h.stepping);
     if (status >= 0) status = dmb_stepping_check(sim, "time", time, sim->clock->time);
+    if (status >= 0) status = begin(&h);
     if (status < 0) return status;
-    if (sim->scene->event_count == 0) {
-        dmb_message_set(&sim->message, "advance to event: the model has no events; add one, or call dmb_sim_advance");
-        return DMB_ERR_VALUE;
-    }
     const double start = sim->clock->time;
-    status = ask(sim, &h.before);
-    if (status < 0) return status;
-    look_around(sim, &h.before);
     h.wanted = dmb_advance_first(sim);
     while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.told == 0) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
         const double from = sim->clock->time;
         status = go(&h);
-        if (status >= 0 && sim->clock->time > from) h.stepping.stopped = dmb_stepping_stops(sim, time, &h.stepping);
+        if (sim->clock->time > from) end_step(&h, status);
     }
-    status = dmb_stepping_end(sim, status, 0, report, &h.stepping);
-    if (status < 0) return status;
-    (void)report_event(&h, event);
-    if (h.told == 0) return status;
-    tell(&h);
-    return DMB_NOTE_EVENT;
+    return finish(&h, dmb_stepping_end(sim, status, 0, report, &h.stepping), event);
 }
 
 int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report)
 {
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, advance(sim, time, event, report));
+}
+
+/* ---- Equal steps ------------------------------------------------------------------------------------------------- */
+
+static void keep_past(const hunt *h, const gaps *now)
+{
+    for (uint32_t i = 0; i < h->sim->scene->event_count; i++) {
+        const double past[DMB_PAST_SIZE] = {h->before.value[i], h->from, now->value[i], h->sim->clock->time};
+        memcpy(h->sim->event_past + DMB_PAST_SIZE * (size_t)i, past, sizeof past);
+    }
+}
+
+static int32_t look_at_step(void *context)
+{
+    hunt *h = context;
+    gaps now;
+    const int32_t status = ask(h->sim, &now);
+    if (status < 0) return status;
+    h->told = take(h, &now, crossings(h, &now));
+    h->located = h->told != 0 ? h->sim->clock->time - h->from : 0.0;
+    keep_past(h, &now);
+    h->before = now;
+    h->from = h->sim->clock->time;
+    return h->told != 0;
+}
+
+static int32_t steps_to_event(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_event_report *event,
+                              dmb_step_report *report)
+{
+    hunt h = {.sim = sim, .crossing = (double)NAN, .from = sim->clock->time, .equal = 1};
+    const dmb_step_watch watch = {look_at_step, &h};
+    int32_t status = check_report(event);
+    if (status >= 0) status = begin(&h);
+    if (status < 0) return status;
+    return finish(&h, dmb_steps_watched(sim, duration, count, done, report, &watch), event);
+}
+
+int32_t dmb_sim_steps_to_event(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_event_report *event,
+                               dmb_step_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, steps_to_event(sim, duration, count, done, event, report));
 }

@@ -37,6 +37,7 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(input_begin, 3 * (size_t)sim->scene->input_count);
     DMB_COPY(event_since, sim->scene->event_count);
     DMB_COPY(event_side, sim->scene->event_count);
+    DMB_COPY(event_past, DMB_PAST_SIZE * (size_t)sim->scene->event_count);
     dmb_own_scene_update(sim);
 }
 

@@ -21,6 +21,8 @@
 #include "kernel/kernels.h"
 #include "model/model.h"
 
+enum { DMB_PAST_GAP = 0, DMB_PAST_TIME = 1, DMB_PAST_END = 2, DMB_PAST_END_TIME = 3, DMB_PAST_SIZE = 4 };
+
 /* Accepted or trial state of a drive, doubles alone (system/assemble/drives). Speed and rate are those of a driven
  * joint coordinate, 0 of other drives. */
 typedef struct dmb_drive_variables {
@@ -137,6 +139,9 @@ typedef struct dmb_drive_variables {
                                                    not beyond the level; infinite: already reported, or beyond the    \
                                                    level when the call began: run/events */                           \
     X(double, event_side, event, NUMBERS)       /* [-] > 0: above its level last, < 0: below; 0: neither yet:         \
+                                                   run/events */                                                      \
+    X(double, event_past, DMB_PAST_SIZE * event, NUMBERS) /* of events in equal steps: the output less its level, and     \
+                                                   time [s], at the start of the last step and at its end:            \
                                                    run/events */                                                      \
     X(double, history_angle, history, NUMBERS)  /* [rad] samples of the cut surface, system/assemble/bit */           \
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \

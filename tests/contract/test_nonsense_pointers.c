@@ -488,6 +488,7 @@ static void of_events(void **state)
     MISSING(dmb_model_find_event(model, NULL, &id));
     MISSING(dmb_model_find_event(model, "a", NULL));
     MISSING(dmb_sim_advance_to_event(NULL, 1.0, &report, NULL));
+    MISSING(dmb_sim_steps_to_event(NULL, 1.0, 1, NULL, &report, NULL));
     NO_OBJECT(dmb_model_get_event(JUNK(dmb_model), 0, &event));
     NO_OBJECT(dmb_model_find_event(JUNK(dmb_model), "a", &id));
     assert_int_equal(dmb_model_event_count(NULL), 0);

@@ -111,6 +111,7 @@ static inline void act_event(dmb_sim *sim, random_scene *c)
     must_be_known(status);
     MUST(dmb_sim_time(sim) <= end);
     MUST(status != DMB_NOTE_EVENT || (report.count > 0 && report.events != 0 && report.time == dmb_sim_time(sim)));
+    must_be_known(dmb_sim_steps_to_event(sim, 1e-4, 3, NULL, &report, NULL));
 }
 
 /* ---- Windows and recorders ----------------------------------------------------------------------------------------

@@ -222,6 +222,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
     "dmb_sim_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_steps": (c_int32, c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(StepReport),),
+    "dmb_sim_steps_to_event": (c_int32, c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(EventReport), POINTER(StepReport),),
     "dmb_sim_time": (c_double, c_void_p,),
     "dmb_sim_transfer_state": (c_int32, c_void_p, c_void_p,),
     "dmb_sim_value": (c_double, c_void_p, c_int32, Place,),
@@ -513,7 +514,7 @@ FUNCTION_DOCS = {
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED, the message gives the change); that energy, and the energy of springs and stops that are disconnected or connected, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate, a coupling keeps its offset, so a gear that has slipped cannot close. A joint that a motion drive moves cannot be locked. Errors, with nothing changed: ERR_ID, _VALUE, _GEOMETRY (parts or couplings do not fit within 1e-6 m and rad, or axes point against each other; a drive's speed cannot be reached), _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_on_step":
-        "From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and each of dmb_sim_advance and _advance_to_event that is accepted for good: not after parts of a divided step, nor after steps that are repeated to locate an event. Nonzero before the end of the call: NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not ended by it. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors as of dmb_sim_set_progress.",
+        "From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and _steps_to_event and each of dmb_sim_advance and _advance_to_event that is accepted for good: not after parts of a divided step, nor after steps that are repeated to locate an event. Nonzero before the end of the call: NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not ended by it. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors as of dmb_sim_set_progress.",
     "dmb_sim_set_progress":
         "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK is one interval. Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state); dmb_sim_advance ends with NOTE_CANCELLED in its last accepted state. A signal handler or another thread sets a flag that the function reads. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
     "dmb_sim_snapshot_size":
@@ -522,6 +523,8 @@ FUNCTION_DOCS = {
         "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at time function breakpoints, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: scene.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
     "dmb_sim_steps":
         "`count` calls of dmb_sim_step with the same duration in one, with the same bits. *done (may be NULL): [-] accepted calls. The report has the sums and maxima of them all. The status is the largest note of a step, with its message, or the error that ended the calls; the state is then that after *done of them.",
+    "dmb_sim_steps_to_event":
+        "As dmb_sim_steps, with the same bits, but ends after the step in which the first event is: NOTE_EVENT. No step is changed: `events` has all of that step, and `crossing` is where the parabola through the output at three ends of steps meets the level; its error against the motion of these steps is 0.064 h^3 |y(3)/y'| (y' the rate of the output, y(3) its third derivative) where the output is smooth, else up to the step: in the first step of a run, after a change between steps, and where the output has kinks or lies on its level before (force of an open contact). The motion has the error of the steps, h^2, besides. A crossing and return within one step is missed, of both functions; dmb_sim_advance_to_event takes shorter steps where the tolerances ask for them. ERR_VALUE: no events.",
     "dmb_sim_time":
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":

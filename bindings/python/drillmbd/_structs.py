@@ -583,26 +583,29 @@ class InputRecord(Record):
 
 
 class EventReport(Sized):
-    c_name, about = "dmb_event_report", "For dmb_sim_advance_to_event."
+    c_name, about = "dmb_event_report", "For dmb_sim_advance_to_event, dmb_sim_steps_to_event."
     struct_size: int
     count: int
     events: int
     time: float
     located: float
+    crossing: float
     if TYPE_CHECKING:
-        def __init__(self, *, count: int = ..., events: int = ..., time: SupportsFloat = ..., located: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, count: int = ..., events: int = ..., time: SupportsFloat = ..., located: SupportsFloat = ..., crossing: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
         ("events", c_uint64),
         ("time", c_double),
         ("located", c_double),
+        ("crossing", c_double),
     ]
     field_docs = {
         "count": ("-", "events reported: those within the tolerance of the first count as simultaneous"),
         "events": ("-", "bit i: event number i in the order of description is reported"),
         "time": ("s", "reached"),
-        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends"),
+        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends; of dmb_sim_steps_to_event the length of the step, which holds the crossing or the end of the hold"),
+        "crossing": ("s", "time of the crossing, of the first of several, before its `hold`; NaN without an event"),
     }
 
 

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .window import Window
 
 _advance_to_event = _lib.dmb_sim_advance_to_event
+_steps_to_event = _lib.dmb_sim_steps_to_event
 _step, _steps, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_steps, _lib.dmb_sim_advance, object.__setattr__
 
 
@@ -163,6 +164,15 @@ class Sim(Handle, analysis.Analyses):
         self._check(self._teller.long_call(self._handle, _advance_to_event, real(time, "advance", "time", "s"),
                                            byref(report), None))
         return [name for i, name in enumerate(self._events) if report.events >> i & 1]
+
+    @mirrors("dmb_sim_steps_to_event")
+    def steps_to_event(self, duration: float, count: int) -> tuple[list[str], float]:
+        """Advances by equal steps of `duration` [s], at most `count`, and ends after the step with the first event: the
+        names of the events in it and the time [s] of the crossing, interpolated within the step. None: [], nan."""
+        report: EventReport = EventReport.blank()
+        self._check(self._teller.long_call(self._handle, _steps_to_event, real(duration, "steps", "duration", "s"),
+                                           whole(count, "steps", "count"), None, byref(report), None))
+        return [name for i, name in enumerate(self._events) if report.events >> i & 1], report.crossing
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,

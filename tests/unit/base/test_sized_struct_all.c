@@ -31,7 +31,7 @@
     X(energy, 128)              \
     X(environment_def, 64)      \
     X(event_def, 88)            \
-    X(event_report, 32)         \
+    X(event_report, 40)         \
     X(fatigue_options, 72)      \
     X(fatigue_result, 80)       \
     X(flow_state, 96)           \
