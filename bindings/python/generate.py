@@ -7,12 +7,14 @@ usage: generate.py            writes them
        generate.py --check    tells whether they are up to date; exit status 1 if not
 """
 import functools
+import math
 import pathlib
 import re
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = HERE.parents[1] / "include" / "drillmbd"
+LISTS = HERE.parents[1] / "lib" / "fields"
 PACKAGE = HERE / "drillmbd"
 
 # Names of enumerations whose members share too little, or whose prefix says too little. Key: the first member.
@@ -208,6 +210,39 @@ def enum_class(first, members):
     return ENUM_NAMES.get(first) or prefix.capitalize()
 
 
+# ---- Ranges of options -------------------------------------------------------------------------------------------------
+def rows(text):
+    """{struct: [(field, unit, bound, arguments of the bound)]} of lists of fields in C."""
+    text = re.sub(r"/\*.*?\*/", "", text.replace("\\\n", " "), flags=re.S)
+    lists = {name: re.findall(r'(?:FIELD\(T, \d+, (\w+)|ARRAY\(T, \d+, (\w+), \w+, \d+), "(.*?)", (\w+)(?:\(((?:[^()]|\(.*?\))*)\))?,', body)
+             for name, body in re.findall(r"#define (DMB_\w+_FIELDS)\(FIELD, ARRAY, T\)(.*?)(?=#define|\Z)", text, re.S)}
+    return {struct: [(one or other, unit, bound, arguments) for one, other, unit, bound, arguments in lists[name]]
+            for struct, name in re.findall(r"X\(\d+, (\w+), .*?, (DMB_\w+_FIELDS)\)", text)}
+
+
+@functools.lru_cache
+def constants(reader):
+    """Constants of the headers and of lib/fields/bounds.h by name."""
+    known = {"UINT32_MAX": 0xFFFFFFFF}
+    known.update({"DMB_" + name: value for _, members in reader.enums() for name, value, _ in members})
+    text = (LISTS / "bounds.h").read_text(encoding="utf-8")
+    known.update({name: float(value) for name, value in re.findall(r"^#define (DMB_\w+) (\S+)", text, re.M)})
+    known.update({name: int(value) for name, value in re.findall(r"^    (DMB_\w+) = (\d+)", text, re.M)})
+    return known
+
+
+@functools.lru_cache
+def options(reader):
+    """{struct: {field: (bound, low, high)}} of the structs of options."""
+    known = constants(reader)
+    ranges = {}
+    for struct, fields in rows((LISTS / "options.h").read_text(encoding="utf-8")).items():
+        ends = {field: (bound.lower(), *(float(eval(one, {}, known)) for one in arguments.split(",")))
+                for field, _, bound, arguments in fields if bound != "ANY"}
+        ranges[struct] = {field: one if len(one) == 3 else (*one, math.inf) for field, one in ends.items()}
+    return ranges
+
+
 # ---- Methods that take the fields of a struct ------------------------------------------------------------------------
 # Kinds of parts that have a type of id of their own for type checkers; when a program runs each is Id.
 ID_KINDS = ("TimeFunction", "Wall", "String", "Body", "Bit", "Stabiliser", "Joint", "Coupling", "Constraint", "Drive", "Load", "Spring",
@@ -351,6 +386,10 @@ def struct_lines(reader, c_name, fields, text):
     for field, _, unit, meaning in shown:
         yield f"        {quoted(field)}: ({quoted(unit)}, {quoted(meaning)}),"
     yield "    }"
+    if c_name in options(reader):
+        yield "    bounds = {"
+        yield from (f'        "{field}": ("{bound}", {low:g}, {high:g}),' for field, (bound, low, high) in options(reader)[c_name].items())
+        yield "    }"
     yield ""
     yield ""
 
@@ -362,6 +401,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
                     c_void_p)
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
 from ._record import (ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart,

@@ -214,8 +214,8 @@ class CommandTest(FolderTest):
 
     def test_fatigue_refused(self):
         for lines, told in (("", "curve_stress"), ('curve_stress = "1 MPa"', "slope"), ('curve_stress = "1 MPa"\nslope = 0.5', "1 .. 50"),
-                            ('curve_stress = "-1 MPa"\nslope = 3', "> 0"), ('curve_stress = "1 kg"\nslope = 3', "kg"),
-                            ('curve_stress = "1 MPa"\nslope = 3\nconcentration = 0.5', ">= 1"),
+                            ('curve_stress = "-1 MPa"\nslope = 3', "must be 1 .. 1e+15 (in Pa)"), ('curve_stress = "1 kg"\nslope = 3', "kg"),
+                            ('curve_stress = "1 MPa"\nslope = 3\nconcentration = 0.5', "1 .. 100"),
                             ('curve_stress = "1 MPa"\nslope = 3\nclasses = 4', "8 .. 65536"),
                             ('curve_stress = "1 MPa"\nslope = 3\npoints = 1', "2 .. 360")):
             scene = self.write("bad.toml", SCENE + "[fatigue]\n" + lines + "\n")

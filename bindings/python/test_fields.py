@@ -10,9 +10,10 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import generate  # noqa: E402
+import drillmbd  # noqa: E402
 from drillmbd import _structs, enums  # noqa: E402
 
-LISTS = HERE.parents[1] / "lib" / "fields" / "lists.h"
+LISTS = HERE.parents[1] / "lib" / "fields"
 NUMBER = r"-?(?:\d[\d.]*(?:e[+-]?\d+)?|[A-Z][A-Z0-9_]+|NaN)(?![\w/])"
 # "default 0.5", "default (0, 0, -9.81)", "default AXIAL and ROTATION"; "-1 (default)", "FEED (X, default)"
 STATED = re.compile(rf"default:? (?:DMB_)?\(?({NUMBER}(?:(?:,| and) {NUMBER})*)|({NUMBER}) \((?:\w+, )?default\)")
@@ -20,13 +21,12 @@ PREFIXES = ("", "STUCK_", "DRIVE_", "SPRING_")
 
 
 def lists():
-    """{struct: {field: (number, unit)}} of lists.h."""
-    text = LISTS.read_text(encoding="utf-8").replace("\\\n", " ")
-    rows = {}
-    for name, body in re.findall(r"#define (DMB_\w+_FIELDS)\(FIELD, ARRAY, T\)(.*?)\n\n", text, re.S):
-        found = re.findall(r'FIELD\(T, (\d+), (\w+), "(.*?)"', body) + re.findall(r'ARRAY\(T, (\d+), (\w+), \w+, \d+, "(.*?)"', body)
-        rows[name] = {field: (int(number), unit) for number, field, unit in found}
-    return {struct: rows[name] for struct, name in re.findall(r"X\(\d+, (\w+), .*?, (DMB_\w+_FIELDS)\)", text)}
+    """{struct: {field: unit}} of the lists of fields and of options."""
+    found = {}
+    for name in ("lists.h", "options.h"):
+        for struct, fields in generate.rows((LISTS / name).read_text(encoding="utf-8")).items():
+            found[struct] = {field: unit for field, unit, _, _ in fields}
+    return found
 
 
 def value_of(word):
@@ -80,10 +80,9 @@ class Fields(unittest.TestCase):
         return [field for field in self.structs[struct] if field[0] != "struct_size" and not re.search(r"reserved\d*$", field[0])]
 
     def test_every_member_has_a_row(self):
-        self.assertEqual(len(self.lists), 21)
+        self.assertEqual(len(self.lists), 21 + 12)
         for struct, rows in self.lists.items():
             self.assertEqual({name for name, *_ in self.members(struct)}, set(rows), struct)
-            self.assertEqual(sorted(number for number, _ in rows.values()), list(range(1, len(rows) + 1)), struct)
 
     def test_every_description_has_a_list(self):
         self.assertEqual({name for name in self.structs if name.endswith("_def")} - set(self.lists), set())
@@ -91,7 +90,8 @@ class Fields(unittest.TestCase):
     def test_units(self):
         for struct, rows in self.lists.items():
             for name, _, unit, _ in self.members(struct):
-                self.assertEqual(rows[name][1], unit, f"{struct}.{name}")
+                if "," not in unit:  # one comment of several members
+                    self.assertEqual(rows[name], unit, f"{struct}.{name}")
 
     def test_stated_defaults(self):
         compared = 0
@@ -106,6 +106,34 @@ class Fields(unittest.TestCase):
                     compared += 1
                     self.assertTrue(same(wanted, found), f"{struct}.{name}: default {wanted} in the header, {found} in the library")
         self.assertGreater(compared, 130)
+
+    def test_ranges_of_options(self):
+        """Each range of the structs of Python is that which the library refuses by, as data of its error."""
+        model = drillmbd.Model()
+        model.add_wall()
+        string = model.add_pipes(2)
+        model.compile()
+        sim = model.sim()
+        output, order = (drillmbd.station(string, 1, 0.5), "vibration_z"), _structs.Order()
+        calls = {_structs.SimOptions: model.sim, _structs.StaticOptions: sim.static, _structs.BucklingOptions: sim.buckling,
+                 _structs.PathOptions: sim.path, _structs.ModesOptions: sim.modes, _structs.TorqueDragOptions: sim.torque_drag,
+                 _structs.ResponseOptions: lambda **one: sim.response([_structs.Excitation()], [output], **one),
+                 _structs.SteppedSineOptions: lambda **one: sim.stepped_sine(1.0, [output], **one),
+                 _structs.SpeedsOptions: lambda **one: sim.speeds([order], [output], [1.0], **one),
+                 _structs.StateSpaceOptions: lambda **one: sim.state_space([_structs.Excitation()], [output], **one)}
+        checked = 0
+        for struct, call in calls.items():
+            self.assertGreater(len(struct.bounds), 2)
+            for field, (kind, low, high) in struct.bounds.items():
+                outside = low if kind == "above" else 1.5 * high + 1.0
+                if isinstance(getattr(struct(), field), int):
+                    outside = int(min(high + 1, 0xFFFFFFFF))
+                value = [outside, outside] if field == "band" else outside
+                with self.assertRaises(drillmbd.Error, msg=f"{struct.__name__}.{field}") as caught:
+                    call(**{field: value})
+                self.assertEqual((caught.exception.field.split("[")[0], caught.exception.low), (field, low), caught.exception.message)
+                checked += 1
+        self.assertGreater(checked, 80)
 
     def test_defaults_that_are_read(self):
         """The reader of comments itself."""

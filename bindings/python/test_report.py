@@ -272,6 +272,10 @@ class HoleTest(unittest.TestCase):
 class VerdictTest(unittest.TestCase):
     """Each all-clear has an input for which it is not given."""
 
+    def test_duration(self):
+        for seconds, text in ((5.4e3, "1.5 h"), (7.2e6, "2000 h"), (3.156e9, "100 years"), (1e14, "more than 1000 years")):
+            self.assertEqual(verdict.duration(seconds), text)
+
     def speeds(self, bands=(), severity=0.5, rotation=10.0, silent=0, unmoved=()):
         found = SpeedBands()
         for low, high in bands:

@@ -659,6 +659,23 @@ curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
         with self.assertRaisesRegex(scene.SceneError, "curve"):
             scene.loads(text.replace('["0 rpm", "4 kN m"]', '["0 rpm"]'))
 
+    def test_settings_outside_their_ranges(self):
+        """Refused when the file is read, with line, key, value and range, by every command."""
+        for old, new, fault in (
+                ("spectral_radius = 0.9", "spectral_radius = 3", "sim.spectral_radius = 3: must be 0 .. 1"),
+                ("spectral_radius = 0.9", "newton_tolerance = 0.5", "sim.newton_tolerance = 0.5: must be 0 or 1e-14 .. 0.1"),
+                ("spectral_radius = 0.9", 'tolerance_rotation = "-1 deg"', 'sim.tolerance_rotation = "-1 deg": must be > 0 (in rad)'),
+                ('slip_axial = "1 mm/s"', "tolerance = -1", "static.tolerance = -1: must be 1e-15 .. 0.1"),
+                ('frequency_high = "10 Hz"', 'frequency_high = "0.5 Hz"', 'response.frequency_high = "0.5 Hz": must be above frequency_low, 1 Hz'),
+                ('frequency_high = "10 Hz"', "points = 0", "response.points = 0: must be 1 .. 1e+06"),
+                ('speed_high = "100 rpm"', 'speed_low = "500 rpm"', 'speeds.speed_low = "500 rpm": must be below speed_high, 30 rad/s by default'),
+                ("order = 2", "order = -2", "speeds.order[0].order = -2: must be 0.001 .. 1000"),
+                ("slope = 4", "slope = 0.5", "fatigue.slope = 0.5: must be 1 .. 50"),
+                ("[static]", '[modes]\nband = ["9 Hz", "2 Hz"]\n[static]', "modes.band = ['9 Hz', '2 Hz']: must increase"),
+                ('factor_max = "100 kN"', 'factor_max = "-1 N"', 'buckling.factor_max = "-1 N": must be 1e-300 .. 1e+300')):
+            found = problems(EVERYTHING.replace(old, new))
+            self.assertEqual([str(one) for one in found], [fault], new)
+
     def test_rate_of_flow_as_an_input(self):
         text = """
 [environment]

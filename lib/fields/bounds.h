@@ -40,10 +40,17 @@
 #define DMB_FORCE_MAX 1e30         /* [N, N m, unit of a time function] */
 #define DMB_ACTUATOR_TIME_MIN 1e-6 /* [s] of delays and lags of actuators */
 #define DMB_DELAY_MAX 1e4          /* [s] */
+#define DMB_SLIP_MAX 1e6           /* [m/s, rad/s] speeds of analyses */
+#define DMB_FREQUENCY_MAX 1e9      /* [Hz] its square times a mass is far from overflow */
+#define DMB_FRICTION_MAX 10.0      /* [-] coefficient of torque and drag */
+#define DMB_OPTION_MAX 1e300       /* of options without another bound */
 
 enum {
     DMB_PIPE_ELEMENTS_MAX = 1024, /* of one pipe */
-    DMB_CONSTRAINT_PLACES = 4,    /* of a constraint or force of the caller */
+    DMB_PARALLEL_MAX = 64,        /* parts of a step at once */
+    DMB_REFINEMENT_MAX = 40,      /* halvings beside the peaks of a response */
+    DMB_STEPPED_SINE_HARMONICS_MAX = 16,
+    DMB_CONSTRAINT_PLACES = 4, /* of a constraint or force of the caller */
     DMB_CONSTRAINT_ROWS = 6
 };
 

@@ -10,6 +10,7 @@
 #include "base/sized_struct.h"
 #include "drillmbd/scene.h"
 #include "fields/lists.h"
+#include "fields/options.h"
 
 typedef enum dmb_field_type {
     DMB_TYPE_REAL,   /* double, or an array of them */
@@ -29,6 +30,7 @@ typedef enum dmb_field_bound {
     DMB_BOUND_FINITE,  /* any number but infinity and NaN */
     DMB_BOUND_WITHIN,  /* low <= value <= high */
     DMB_BOUND_BETWEEN, /* low < value < high */
+    DMB_BOUND_ABOVE,   /* low < value, finite */
     DMB_BOUND_ZERO_OR, /* 0 for "by default", or low <= value <= high */
     DMB_BOUND_MINUS_ONE_OR,
     DMB_BOUND_BITS,   /* made of the bits of high */
@@ -68,6 +70,13 @@ enum { DMB_DESCRIBED(DMB_LIST_INDEX) DMB_FIELD_LISTS };
 #undef DMB_LIST_INDEX
 extern const dmb_field_list dmb_field_lists[DMB_FIELD_LISTS];
 #define DMB_FIELDS_OF(T) (&dmb_field_lists[T##_index])
+
+/* The same of options: DMB_OPTIONS_OF(dmb_static_options). Each list is an object of its own, so that a program has
+ * only those of the calls that it makes. */
+#define DMB_OPTIONS_DECLARE(number, T, word, kind, oldest, FIELDS) extern const dmb_field_list T##_list;
+DMB_OPTIONS(DMB_OPTIONS_DECLARE)
+#undef DMB_OPTIONS_DECLARE
+#define DMB_OPTIONS_OF(T) (&T##_list)
 
 /* [byte] of one element of a field. */
 size_t dmb_field_element_size(const dmb_def_field *field);

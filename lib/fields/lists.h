@@ -11,6 +11,7 @@
  * `bound` is one of
  *
  *     WITHIN(low, high)         BETWEEN(low, high), ends excluded   ZERO_OR(low, high)    MINUS_ONE_OR(low, high)
+ *     ABOVE(low), finite
  *     BITS(mask)                SET of components                   MOTION, a closed one  TEXT, a name
  *     PART(kind)                PART_OR_NONE(kind)                  PLACE                 GROUND_OR_PLACE
  *     POINTER, which is there   FINITE   ANY, which no check of one field can tell */

@@ -21,6 +21,7 @@ static bool holds(const dmb_def_field *field, double value)
     switch (field->bound) {
     case DMB_BOUND_FINITE: return dmb_is_finite(value);
     case DMB_BOUND_BETWEEN: return value > field->low && value < field->high;
+    case DMB_BOUND_ABOVE: return value > field->low && dmb_is_finite(value);
     case DMB_BOUND_BITS: return ((uint32_t)(int32_t)value & ~(uint32_t)field->high) == 0;
     case DMB_BOUND_ZERO_OR: return is_zero(value) || is_within(value, field->low, field->high);
     case DMB_BOUND_MINUS_ONE_OR: return is_within(value, -1.0, -1.0) || is_within(value, field->low, field->high);
@@ -41,6 +42,8 @@ static dmb_check_bound bound_of(const dmb_def_field *field, dmb_message *text)
     } else if (field->bound == DMB_BOUND_BITS) {
         dmb_message_set(text, "made of the bits of %g", field->high);
         bound.low = bound.high = (double)NAN;
+    } else if (field->bound == DMB_BOUND_ABOVE) {
+        dmb_message_set(text, "finite and > %g", field->low);
     } else if (field->bound == DMB_BOUND_BETWEEN) {
         dmb_message_set(text, "finite, > %g and < %g", field->low, field->high);
     } else if (field->type == DMB_TYPE_REAL || field->type == DMB_TYPE_REALS) {
@@ -191,6 +194,16 @@ void dmb_check_fields(dmb_check *check, const dmb_model *model, const dmb_field_
     const dmb_def_field *name = dmb_field_name(list); /* first, since messages about the others state it */
     if (name != NULL) dmb_check_part_name(check, model, list->kind, dmb_field_at(name, def));
     for (uint32_t i = 0; i < list->count && check->status >= 0; ++i) check_field(check, model, &list->fields[i], def);
+}
+
+void dmb_options_get(dmb_check *check, const dmb_field_list *list, const void *given, void *out)
+{
+    memcpy(out, list->defaults, list->size);
+    memcpy(out, &list->size, sizeof list->size);
+    if (given != NULL && dmb_struct_read(out, list->size, list->oldest, given) < 0)
+        dmb_check_fail(check, DMB_ERR_STRUCT_SIZE, "struct_size", *(const uint32_t *)given,
+                       "that of this library's header or an older one");
+    dmb_check_fields(check, NULL, list, out);
 }
 
 /* ---- Inertias ---------------------------------------------------------------------------------------------------- */

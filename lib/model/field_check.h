@@ -25,6 +25,10 @@ enum {
 /* Every field by its own bound, in the order of the list. Relations between fields come after it. */
 void dmb_check_fields(dmb_check *check, const dmb_model *model, const dmb_field_list *list, const void *def);
 
+/* Options of a call with their defaults, overlaid with those of the caller (may be NULL), each checked by its own
+ * bound. Relations between them come after it. */
+void dmb_options_get(dmb_check *check, const dmb_field_list *list, const void *given, void *out);
+
 /* Zero, or low <= value <= high. */
 void dmb_check_zero_or_within(dmb_check *check, const char *field, double value, double low, double high);
 /* low <= value <= high for each of count values; the message names the component. */

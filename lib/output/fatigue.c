@@ -10,38 +10,23 @@
 #include "base/value_check.h"
 #include "drillmbd/ask.h"
 #include "math/real.h"
+#include "model/field_check.h"
 #include "model/section.h"
 #include "query/query.h"
 #include "sim/access.h"
 
-DMB_DEFINE_INIT(dmb_fatigue_options, 72,
-                {
-                    .classes = 1024,
-                    .points = 8,
-                    .stress_range = 1e9,
-                    .concentration = 1.0,
-                    .curve_cycles = 1e6,
-                })
 DMB_DEFINE_INIT(dmb_fatigue_result, 80, {.damage = 0.0})
 
-enum { PLACES_MAX = 65536, CLASSES_MIN = 8, CLASSES_MAX = 65536, POINTS_MAX = 360 };
-#define STRESS_MAX 1e15 /* [Pa] */
+enum { PLACES_MAX = 65536 };
 
 /* ---- Creation ---------------------------------------------------------------------------------------------------- */
 
-static int32_t check_options(dmb_sim *sim, const dmb_fatigue_options *options, uint32_t place_count)
+static int32_t read_options(dmb_sim *sim, const dmb_fatigue_options *given, uint32_t place_count,
+                            dmb_fatigue_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "fatigue", DMB_NONE);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_fatigue_options), given, out);
     dmb_check_count(&check, "place_count", place_count, 1, PLACES_MAX);
-    dmb_check_count(&check, "classes", options->classes, CLASSES_MIN, CLASSES_MAX);
-    dmb_check_count(&check, "points", options->points, 2, POINTS_MAX);
-    dmb_check_within(&check, "stress_range", options->stress_range, 1.0, STRESS_MAX);
-    dmb_check_within(&check, "concentration", options->concentration, 1.0, 100.0);
-    dmb_check_within(&check, "curve_stress", options->curve_stress, 1.0, STRESS_MAX);
-    dmb_check_within(&check, "curve_cycles", options->curve_cycles, 1.0, 1e30);
-    dmb_check_within(&check, "slope", options->slope, 1.0, 50.0);
-    dmb_check_within(&check, "endurance", options->endurance, 0.0, STRESS_MAX);
-    dmb_check_within(&check, "tensile_strength", options->tensile_strength, 0.0, STRESS_MAX);
     return check.status;
 }
 
@@ -130,11 +115,7 @@ static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_
 {
     dmb_fatigue_options options;
     dmb_fatigue *made;
-    if (dmb_fatigue_options_read(&options, given) < 0) {
-        dmb_message_set(&sim->message, "fatigue: struct_size of the options is not one of this library");
-        return DMB_ERR_STRUCT_SIZE;
-    }
-    int32_t status = check_options(sim, &options, place_count);
+    int32_t status = read_options(sim, given, place_count, &options);
     if (status >= 0) status = check_places(sim, places, place_count);
     if (status < 0) return status;
     const size_t bytes = bytes_of(&options, place_count);

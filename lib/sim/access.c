@@ -7,6 +7,7 @@
 #include "base/value_check.h"
 #include "drillmbd/analyse.h"
 #include "drillmbd/run.h"
+#include "model/field_check.h"
 #include "sim/sim.h"
 
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */
@@ -146,46 +147,12 @@ int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context)
 
 /* ---- Options ----------------------------------------------------------------------------------------------------- */
 
-DMB_DECLARE_STRUCT(dmb_sim_options)
-
-static void check_iteration(dmb_check *check, const dmb_sim_options *o)
-{
-    dmb_check_count(check, "max_iterations", o->max_iterations, 1, 1000);
-    dmb_check_within(check, "spectral_radius", o->spectral_radius, 0.0, 1.0);
-    if (!(o->newton_tolerance >= 1e-14 && o->newton_tolerance <= 1e-1) && o->newton_tolerance != 0.0)
-        dmb_check_fail(check, dmb_is_finite(o->newton_tolerance) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE,
-                       "newton_tolerance", o->newton_tolerance, "0 (follow the error of the step), or 1e-14 .. 0.1");
-    dmb_check_choice(check, "bounded_work", o->bounded_work, 0, 1);
-    dmb_check_choice(check, "energy_ledger", o->energy_ledger, 0, 1);
-    dmb_check_choice(check, "constraint_method", o->constraint_method, DMB_METHOD_INDEPENDENT, DMB_METHOD_MULTIPLIERS);
-    dmb_check_count(check, "parallel_parts", o->parallel_parts, 1, DMB_PARALLEL_MAX);
-}
-
-static void check_step_control(dmb_check *check, const dmb_sim_options *o)
-{
-    dmb_check_above(check, "tolerance_translation", o->tolerance_translation, 0.0);
-    dmb_check_above(check, "tolerance_rotation", o->tolerance_rotation, 0.0);
-    dmb_check_above(check, "step_min", o->step_min, 0.0);
-    dmb_check_above_field(check, "step_max", o->step_max, "step_min", o->step_min);
-    dmb_check_count(check, "max_cuts", o->max_cuts, 0, 30);
-    dmb_check_at_least(check, "assembly_energy", o->assembly_energy, 0.0);
-}
-
 int32_t dmb_sim_options_get(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message)
 {
     dmb_check check = dmb_check_of(message, "sim options", DMB_NONE);
-    dmb_sim_options read = dmb_sim_options_default();
-    if (given != NULL) {
-        const int32_t status = dmb_sim_options_read(&read, given);
-        if (status < 0) {
-            dmb_message_set(message,
-                            "sim options: struct_size = %u, must be that of this library's header or an older one",
-                            given->struct_size);
-            return status;
-        }
-    }
-    check_iteration(&check, &read);
-    check_step_control(&check, &read);
+    dmb_sim_options read;
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_sim_options), given, &read);
+    dmb_check_above_field(&check, "step_max", read.step_max, "step_min", read.step_min);
     if (check.status == DMB_OK) *out = read;
     return check.status;
 }
@@ -194,22 +161,6 @@ int32_t dmb_sim_options_get(dmb_sim_options *out, const dmb_sim_options *given, 
  * first release. */
 
 /* clang-format off */
-DMB_DEFINE_INIT(dmb_sim_options, 96, {
-    .max_iterations = 12,
-    .spectral_radius = 0.8,
-    .newton_tolerance = 0.0,
-    .tolerance_translation = 1e-6,
-    .tolerance_rotation = 1e-5,
-    .step_min = 1e-9,
-    .step_max = 0.1,
-    .max_cuts = 12,
-    .energy_ledger = 1,
-    .constraint_method = DMB_METHOD_INDEPENDENT,
-    .parallel_parts = 2,
-    .parallel_least = 1000,
-    .assembly_energy = 1e-3,
-})
-
 DMB_DEFINE_INIT(dmb_step_report, 48, {.steps = 0})
 
 DMB_DEFINE_INIT(dmb_pose, 136, {.depth = 0.0})
@@ -236,47 +187,15 @@ DMB_DEFINE_INIT(dmb_statistics, 72, {.steps = 0})
 
 DMB_DEFINE_INIT(dmb_recorder, 48, {.output_count = 0})
 
-DMB_DEFINE_INIT(dmb_static_options, 40, {
-    .max_iterations = 60,
-    .tolerance = 1e-10,
-    .load_steps = 0,
-    .lay_on_wall = 1,
-})
-
 DMB_DEFINE_INIT(dmb_static_report, 40, {.iterations = 0})
 
-DMB_DEFINE_INIT(dmb_buckling_options, 64, {
-    .count = 1,
-    .scale = DMB_SCALE_LOADS,
-    .follow = 1,
-    .factor_max = 1e12,
-    .tolerance = 1e-10,
-})
-
 DMB_DEFINE_INIT(dmb_buckling_info, 56, {.count = 0})
-
-DMB_DEFINE_INIT(dmb_path_options, 136, {
-    .max_points = 200,
-    .max_iterations = 15,
-    .scale = DMB_SCALE_LOADS,
-    .factor_end = 1.0,
-    .displacement_end = 1e30,
-    .step_max = 1e30,
-    .tolerance = 1e-10,
-})
 
 DMB_DEFINE_INIT(dmb_path_point, 56, {.number = 0})
 
 DMB_DEFINE_INIT(dmb_path_report, 56, {.points = 0})
 
 DMB_DEFINE_INIT(dmb_check_report, 192, {.rigid_parts = 0})
-
-DMB_DEFINE_INIT(dmb_modes_options, 56, {
-    .count = 10,
-    .band = {0.0, 100.0},
-    .friction = 1,
-    .equilibrium_tolerance = 1e-6,
-})
 
 DMB_DEFINE_INIT(dmb_modes_info, 48, {.count = 0})
 

@@ -449,7 +449,7 @@ typedef struct dmb_chunk_squares {
 /* Processes the items first .. end - 1. */
 typedef void (*dmb_range_fn)(void *work, uint32_t first, uint32_t end);
 
-enum { DMB_PARALLEL_MAX = 64, DMB_CHUNK_DUE = 0, DMB_CHUNK_BEGUN = 1, DMB_CHUNK_DONE = 2 };
+enum { DMB_CHUNK_DUE = 0, DMB_CHUNK_BEGUN = 1, DMB_CHUNK_DONE = 2 };
 
 /* Work that runs in chunks on threads of the caller; neither saved nor hashed. sim/chunks */
 typedef struct dmb_chunks {

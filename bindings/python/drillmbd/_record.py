@@ -68,6 +68,7 @@ class Record(ctypes.Structure):
     c_name: ClassVar[str] = ""
     about: ClassVar[str] = ""
     field_docs: ClassVar[dict[str, tuple[str, str]]] = {}  # field -> (unit, meaning)
+    bounds: ClassVar[dict[str, tuple[str, float, float]]] = {}  # field of options -> (kind of range, low, high), SI
 
     _kinds: ClassVar[dict[str, Any]] = {}  # field -> its type
     _constants: ClassVar[dict[str, set[str]]] = {}  # field -> prefixes of the constants that it takes

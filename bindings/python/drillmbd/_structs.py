@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
                     c_void_p)
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
 from ._record import (ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart,
@@ -1244,6 +1245,15 @@ class StaticOptions(Sized):
         "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
         "steady": ("", "STEADY_..., default STEADY_AUTO"),
     }
+    bounds = {
+        "max_iterations": ("within", 1, 10000),
+        "tolerance": ("within", 1e-15, 0.1),
+        "slip_axial": ("within", -1e+06, 1e+06),
+        "slip_rotation": ("within", -1e+06, 1e+06),
+        "load_steps": ("within", 0, 10000),
+        "lay_on_wall": ("within", 0, 1),
+        "steady": ("within", 0, 3),
+    }
 
 
 class StaticReport(Sized):
@@ -1575,6 +1585,18 @@ class ModesOptions(Sized):
         "axes": ("", "MODES_AXES_TURNING (default), _AT_REST"),
         "spin": ("rad/s", "strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5"),
     }
+    bounds = {
+        "kind": ("within", 0, 1),
+        "select": ("within", 0, 2),
+        "count": ("within", 1, 4.29497e+09),
+        "band": ("within", 0, 1e+12),
+        "contact": ("within", 0, 2),
+        "friction": ("within", 0, 1),
+        "contact_gap": ("within", 0, 1e+06),
+        "equilibrium_tolerance": ("above", 0, inf),
+        "axes": ("within", 0, 1),
+        "spin": ("within", -1e+06, 1e+06),
+    }
 
 
 class ModesInfo(Sized):
@@ -1735,6 +1757,20 @@ class ResponseOptions(Sized):
         "axes": ("", "RESPONSE_AXES_TURNING (default), _AT_REST"),
         "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_modes_options; 0 (default): as they do"),
     }
+    bounds = {
+        "points": ("within", 1, 1e+06),
+        "frequency_low": ("within", 0, 1e+09),
+        "frequency_high": ("within", 0, 1e+09),
+        "logarithmic": ("within", 0, 1),
+        "refinement": ("within", 0, 40),
+        "structural_damping": ("within", 0, 1000),
+        "equilibrium_tolerance": ("within", 1e-06, 1),
+        "contact": ("within", 0, 2),
+        "friction": ("within", 0, 1),
+        "contact_gap": ("within", 0, 1e+06),
+        "axes": ("within", 0, 1),
+        "spin": ("within", -1e+06, 1e+06),
+    }
 
 
 class SteppedSineOptions(Sized):
@@ -1766,6 +1802,14 @@ class SteppedSineOptions(Sized):
         "harmonics": ("-", "1 .. 16, at most an eighth of steps_per_period; default 3"),
         "tolerance": ("-", "settled: the remaining change, extrapolated from the last windows, is below this part of the largest harmonic of each output; default 1e-3"),
         "floor": ("unit of the output", "changes of a harmonic below it count as none, > 0; default 1e-12"),
+    }
+    bounds = {
+        "steps_per_period": ("within", 16, 1e+06),
+        "periods": ("within", 1, 10000),
+        "windows": ("within", 3, 1e+06),
+        "harmonics": ("within", 1, 16),
+        "tolerance": ("within", 1e-12, 1),
+        "floor": ("within", 1e-300, 1e+30),
     }
 
 
@@ -1912,6 +1956,16 @@ class StateSpaceOptions(Sized):
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
         "equilibrium_tolerance": ("-", "residual over the forces that balance in it; default 1e-6"),
         "shift": ("Hz", ">= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move as a rigid body, far below the frequencies that count"),
+    }
+    bounds = {
+        "form": ("within", 0, 2),
+        "motion": ("within", 0, 1),
+        "static_correction": ("within", 0, 1),
+        "contact": ("within", 0, 2),
+        "friction": ("within", 0, 1),
+        "contact_gap": ("within", 0, 1e+06),
+        "equilibrium_tolerance": ("within", 1e-06, 1),
+        "shift": ("within", 0, 1e+09),
     }
 
 
@@ -2158,6 +2212,17 @@ class FatigueOptions(Sized):
         "slope": ("-", "1 .. 50; the user's, no default"),
         "endurance": ("Pa", "amplitudes up to this do no damage, >= 0; default 0"),
         "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default): the mean does not count"),
+    }
+    bounds = {
+        "classes": ("within", 8, 65536),
+        "points": ("within", 2, 360),
+        "stress_range": ("within", 1, 1e+15),
+        "concentration": ("within", 1, 100),
+        "curve_stress": ("within", 1, 1e+15),
+        "curve_cycles": ("within", 1, 1e+30),
+        "slope": ("within", 1, 50),
+        "endurance": ("within", 0, 1e+15),
+        "tensile_strength": ("within", 0, 1e+15),
     }
 
 
@@ -2932,6 +2997,16 @@ class BucklingOptions(Sized):
         "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
         "slip_rotation": ("rad/s", ""),
     }
+    bounds = {
+        "count": ("within", 1, 10000),
+        "scale": ("within", 0, 2),
+        "follow": ("within", 0, 1),
+        "factor_max": ("within", 1e-300, 1e+300),
+        "tolerance": ("within", 1e-15, 0.1),
+        "step": ("within", 0, 1e+30),
+        "slip_axial": ("within", -1e+06, 1e+06),
+        "slip_rotation": ("within", -1e+06, 1e+06),
+    }
 
 
 class SpeedsOptions(Sized):
@@ -2987,6 +3062,20 @@ class SpeedsOptions(Sized):
         "report": ("", "written where the call succeeds; NULL (default): none"),
         "unused": ("", "NULL"),
         "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses are out of balance there (equilibrium_tolerance)"),
+    }
+    bounds = {
+        "points": ("within", 2, 100000),
+        "speed_low": ("within", 1e-06, 1e+06),
+        "speed_high": ("within", 1e-06, 1e+06),
+        "threshold": ("within", 1e-09, 1e+09),
+        "margin": ("within", 0, 0.5),
+        "refinement": ("within", 0, 40),
+        "contact": ("within", 0, 2),
+        "friction": ("within", 0, 1),
+        "contact_gap": ("within", 0, 1e+06),
+        "structural_damping": ("within", 0, 1000),
+        "equilibrium_tolerance": ("within", 1e-06, 1),
+        "spin": ("within", -1e+06, 1e+06),
     }
 
 
@@ -3046,6 +3135,12 @@ class TorqueDragOptions(Sized):
         "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
         "depth_count": ("-", "1 .. 2^20; default 1"),
         "friction_by_depth": ("", "of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the factor on the wall's mu_dynamic at each depth (scene.h)"),
+    }
+    bounds = {
+        "post_buckling": ("within", 0, 1),
+        "friction": ("minus_one_or", 0, 10),
+        "depth_count": ("within", 1, 1.04858e+06),
+        "friction_by_depth": ("within", 0, 1),
     }
 
 
@@ -3504,6 +3599,21 @@ class SimOptions(Sized):
         "parallel_least": ("-", "elements of a scene from which on `parallel` is called; default 1000"),
         "assembly_energy": ("J", "most that dmb_sim_create may store in flexible pipes to close joints, >= 0; default 1e-3, the rounding of described places. More is ERR_GEOMETRY"),
     }
+    bounds = {
+        "max_iterations": ("within", 1, 1000),
+        "spectral_radius": ("within", 0, 1),
+        "newton_tolerance": ("zero_or", 1e-14, 0.1),
+        "tolerance_translation": ("above", 0, inf),
+        "tolerance_rotation": ("above", 0, inf),
+        "step_min": ("above", 0, inf),
+        "step_max": ("above", 0, inf),
+        "max_cuts": ("within", 0, 30),
+        "bounded_work": ("within", 0, 1),
+        "energy_ledger": ("within", 0, 1),
+        "constraint_method": ("within", 0, 1),
+        "parallel_parts": ("within", 1, 64),
+        "assembly_energy": ("within", 0, 1e+300),
+    }
 
 
 class ProfileRecorderStruct(Sized):
@@ -3595,6 +3705,21 @@ class PathOptions(Sized):
         "slip_rotation": ("rad/s", ""),
         "callback": ("", "may be NULL"),
         "callback_context": ("", ""),
+    }
+    bounds = {
+        "max_points": ("within", 1, 1e+06),
+        "max_iterations": ("within", 2, 1000),
+        "scale": ("within", 0, 2),
+        "component": ("within", 0, 2),
+        "branch": ("within", -1, 1),
+        "factor_end": ("within", -1e+30, 1e+30),
+        "displacement_end": ("within", -1e+30, 1e+30),
+        "first_step": ("within", 0, 1e+30),
+        "step_max": ("above", 0, inf),
+        "branch_size": ("within", 0, 1e+06),
+        "tolerance": ("within", 1e-15, 0.1),
+        "slip_axial": ("within", -1e+06, 1e+06),
+        "slip_rotation": ("within", -1e+06, 1e+06),
     }
 
 
@@ -3740,6 +3865,9 @@ class Order(Sized):
     field_docs = {
         "order": ("-", "frequency over rotary speed, > 0; default 1"),
         "excitation": ("", "with its amplitude; default: the scene's eccentric masses, as they are"),
+    }
+    bounds = {
+        "order": ("within", 0.001, 1000),
     }
 
 

@@ -315,7 +315,7 @@ def along_pipes(figure: Any) -> Any:
 
 
 def response(scene: Scene, out: CommandOutput, options: Any) -> int:
-    """The causes of vibration and their severity."""
+    """The causes of vibration and their amplitudes."""
     numpy = need("numpy")
     state, found = rotating.linear(scene, "response", lambda sim, state: settled(state.scene, sim, out, state.static),
                                    _respond, out.note_text)

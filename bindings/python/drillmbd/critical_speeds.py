@@ -69,8 +69,8 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
     names, limits, places = scene.output_names("speeds"), [one["limit"] for one in settings["output"]], scene.response_outputs("speeds")
     out.say(found.state.words(out.units))
     for band in found.bands:
-        out.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {out.units.head(names[band.output])}, severity "
-                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
+        out.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {out.units.head(names[band.output])}, "
+                   f"{band.severity:.3g} times its limit at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
                    + touches(scene, places[band.output], band.severity * limits[band.output], out.units))
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     excited = found.silent is None
@@ -78,15 +78,15 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
         out.say(f"speeds: not assessed, because {found.silent}")
     elif found.state.refused:
         out.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
-                   f"Of the string at rest the severity is at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
+                   f"Of the string at rest the amplitudes are at most {max(found.severity):.3g} times their limits between {low:.0f} and {high:.0f} rpm")
     elif not found.bands and found.bands.report.silent_orders:
         out.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
-                   f"others have a severity of at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
+                   f"others have amplitudes of at most {max(found.severity):.3g} times their limits between {low:.0f} and {high:.0f} rpm")
     elif not found.bands and found.unmoved:
-        out.say(f"speeds: not assessed for all outputs; of the others the severity is at most {max(found.severity):.3g} of the limit between "
+        out.say(f"speeds: not assessed for all outputs; of the others the amplitudes are at most {max(found.severity):.3g} times their limits between "
                    f"{low:.0f} and {high:.0f} rpm")
     elif not found.bands:
-        out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
+        out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the amplitudes are at most {max(found.severity):.3g} times their limits")
     for number in found.unmoved:
         out.say(f"{out.units.head(names[number])}: not assessed, because {no_response.NO_RESPONSE}")
     out.say(LINEAR)
@@ -110,7 +110,7 @@ def left_out(report: Any) -> list[str]:
     if report.silent_orders:
         remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
     if report.undamped:
-        remarks.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
+        remarks.append(phrase("Critical speeds: nothing damps the string, so amplitudes at resonances have no meaning"))
     if report.truncated:
         remarks.append(phrase("Critical speeds: a band continues beyond the range of [speeds]"))
     return remarks

@@ -262,7 +262,7 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
     """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm; ranges [rad/s]: bands over a range of the scene, lightly."""
     figure, ((axes,),) = _axes(1, 1, (11, 4.5))
     rpm = [30.0 * speed / math.pi for speed in speeds]
-    axes.plot(rpm, values, label="severity", **SINGLE)
+    axes.plot(rpm, values, label="amplitude over limit", **SINGLE)
     axes.axhline(threshold, **_style(2), linewidth=1.0, label="limit")
     for number, (low, high) in enumerate(ranges):
         axes.axvspan(30.0 * low / math.pi, 30.0 * high / math.pi, facecolor="#56B4E9", alpha=0.25, linewidth=0.0,
@@ -272,7 +272,7 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
         axes.axvspan(low, high, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00", linewidth=0.0)
         axes.annotate(f"{low:.0f} .. {high:.0f}", (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
                       xytext=(0, 3), textcoords="offset points", ha="center", fontsize=8, rotation=40)
-    axes.set(xlabel="rotary speed [rpm]", ylabel="severity [-]")
+    axes.set(xlabel="rotary speed [rpm]", ylabel="amplitude over limit [-]")
     if max(values) > 0.0:
         _log(axes)
     _legend(axes)

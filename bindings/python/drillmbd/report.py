@@ -32,7 +32,7 @@ from .run_state import MOST_BYTES, Kept, KeptFatigue, KeptRecorder, RunState, st
 from .scene import Scene, words
 from .sim import Sim
 from .unit_systems import Units
-from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, shown
+from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, duration, shown
 
 FRAMES, POINTS, DEPTHS = 60, 300, 40
 #: Operations in the order of OPERATIONS, with the names of the library.
@@ -330,7 +330,7 @@ class Study:
         if found.largest_range <= 0.0:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
         elif math.isfinite(found.life):
-            self.tiles.append(Tile(title, f"{found.life / 3600.0:.0f} h" if found.life > 3.6e5 else f"{found.life / 3600.0:.3g} h", phrase(
+            self.tiles.append(Tile(title, duration(found.life), phrase(
                 "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve", pipe=pipe),
                 OVER if found.damage > 1.0 else NO_LIMIT))
         else:

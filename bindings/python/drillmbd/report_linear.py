@@ -87,7 +87,7 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
         return Tile(title, phrase("not assessed"), found.silent or NOTHING_EXCITES, NOT_ASSESSED)
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     value = phrase("avoid {bands}", bands=found.avoid()) if found.bands else phrase("none found")
-    text = phrase("assessed between {low:.0f} and {high:.0f} rpm, severity at most {severity:.3g}. {linear}", low=low, high=high,
+    text = phrase("assessed between {low:.0f} and {high:.0f} rpm, amplitudes at most {severity:.3g} times their limits. {linear}", low=low, high=high,
                   severity=max(found.severity), linear=LINEAR)
     planned = plan.rotation
     if planned is None:
@@ -113,9 +113,9 @@ def speeds_figure(found: Speeds) -> Figure:
     shapes = [{"type": "rect", "x0": band.low / RPM, "x1": band.high / RPM, "yref": "paper", "y0": 0, "y1": 1,
                "fillcolor": "#E69F00", "opacity": 0.35, "line": {"width": 0}} for band in found.bands]
     return (phrase("Severity by rotary speed"), phrase("Severity 1 is the limit of an amplitude; shaded speeds are to be avoided. {linear}", linear=LINEAR), {
-        "data": [line([one / RPM for one in found.grid], found.severity, phrase("severity"), 0)], "layout": {
+        "data": [line([one / RPM for one in found.grid], found.severity, phrase("amplitude over limit"), 0)], "layout": {
             "shapes": shapes, "xaxis": {"title": {"text": phrase("rotary speed [rpm]")}},
-            "yaxis": {"title": {"text": phrase("severity [-]")}, "type": "log"}}})
+            "yaxis": {"title": {"text": phrase("amplitude over limit [-]")}, "type": "log"}}})
 
 
 def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], out: CommandOutput) -> Tile:

@@ -14,6 +14,16 @@ WORST_FIRST = (OVER, NEAR, NOT_COMPUTED, NOT_ASSESSED, NO_LIMIT, OK)
 NEAR_SHARE = 0.8  #: of a limit
 
 
+def duration(seconds: float) -> str:
+    """A fatigue life in words: hours, years from ten of them on."""
+    hours, years = seconds / 3600.0, seconds / (365.25 * 86400.0)
+    if years > 1000.0:
+        return phrase("more than 1000 years")
+    if years >= 10.0:
+        return phrase("{years:.0f} years", years=years)
+    return f"{hours:.0f} h" if hours >= 100.0 else f"{hours:.3g} h"
+
+
 def shown(value: float, unit: str, units: Units = SI) -> str:
     """A number in three digits with a prefix; in four in other units than SI."""
     return units.scaled(value, unit, ".3g" if units.name == "si" else ".4g", "kMG")

@@ -16,29 +16,17 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "model/field_check.h"
 #include "query/query.h"
 #include "sim/access.h"
 #include "system/system.h"
 
-DMB_DECLARE_STRUCT(dmb_buckling_options)
 DMB_DECLARE_STRUCT(dmb_buckling_info)
 
 static int32_t read_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NONE);
-    (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
-    if (given != NULL && dmb_buckling_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "buckling options: struct_size is not one of this library");
-        return DMB_ERR_STRUCT_SIZE;
-    }
-    dmb_check_count(&check, "count", out->count, 1, 10000);
-    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
-    dmb_check_choice(&check, "follow", out->follow, 0, 1);
-    dmb_check_within(&check, "factor_max", out->factor_max, 1e-300, 1e300);
-    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
-    dmb_check_within(&check, "step", out->step, 0.0, 1e30);
-    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
-    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_buckling_options), given, out);
     return check.status;
 }
 

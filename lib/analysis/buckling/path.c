@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "model/field_check.h"
 #include "query/query.h"
 #include "sim/access.h"
 #include "sim/layout.h"
@@ -14,31 +15,13 @@
 #include "system/assemble/drives.h"
 #include "system/system.h"
 
-DMB_DECLARE_STRUCT(dmb_path_options)
 DMB_DECLARE_STRUCT(dmb_path_report)
 
 static int32_t read_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NONE);
-    (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
-    if (given != NULL && dmb_path_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "path options: struct_size is not one of this library");
-        return DMB_ERR_STRUCT_SIZE;
-    }
-    dmb_check_count(&check, "max_points", out->max_points, 1, 1000000);
-    dmb_check_count(&check, "max_iterations", out->max_iterations, 2, 1000);
-    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
-    dmb_check_choice(&check, "component", out->component, DMB_X, DMB_Z);
-    dmb_check_choice(&check, "branch", out->branch, -1, 1);
-    dmb_check_within(&check, "factor_end", out->factor_end, -1e30, 1e30);
-    if (out->factor_end == 0.0) dmb_check_fail(&check, DMB_ERR_VALUE, "factor_end", 0.0, "not 0");
-    dmb_check_within(&check, "displacement_end", out->displacement_end, -1e30, 1e30);
-    dmb_check_within(&check, "first_step", out->first_step, 0.0, 1e30);
-    dmb_check_above(&check, "step_max", out->step_max, 0.0);
-    dmb_check_within(&check, "branch_size", out->branch_size, 0.0, 1e6);
-    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
-    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
-    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_path_options), given, out);
+    if (check.status >= 0 && out->factor_end == 0.0) dmb_check_fail(&check, DMB_ERR_VALUE, "factor_end", 0.0, "not 0");
     return check.status;
 }
 

@@ -18,12 +18,11 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "math/real.h"
+#include "model/field_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
 #include "system/system.h"
-
-DMB_DECLARE_STRUCT(dmb_modes_options)
 
 static void measure(dmb_mode_search *search)
 {
@@ -47,26 +46,8 @@ static void measure(dmb_mode_search *search)
 static int32_t read_options(const dmb_modes_options *given, dmb_modes_options *out, dmb_message *message)
 {
     dmb_check check = dmb_check_of(message, "modes options", DMB_NONE);
-    (void)dmb_modes_options_init(out, (uint32_t)sizeof *out);
-    if (given != NULL) {
-        const int32_t status = dmb_modes_options_read(out, given);
-        if (status < 0) {
-            dmb_message_set(message, "modes options: struct_size is not one of this library");
-            return status;
-        }
-    }
-    dmb_check_choice(&check, "kind", out->kind, DMB_MODES_UNDAMPED, DMB_MODES_DAMPED);
-    dmb_check_choice(&check, "select", out->select, DMB_MODES_LOWEST, DMB_MODES_BAND);
-    dmb_check_count(&check, "count", out->count, 1, UINT32_MAX - 1);
-    dmb_check_within(&check, "band[0]", out->band[0], 0.0, 1e12);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_modes_options), given, out);
     dmb_check_above_field(&check, "band[1]", out->band[1], "band[0]", out->band[0]);
-    dmb_check_within(&check, "band[1]", out->band[1], 0.0, 1e12);
-    dmb_check_choice(&check, "contact", out->contact, DMB_CONTACT_AS_IS, DMB_CONTACT_CLOSED);
-    dmb_check_choice(&check, "friction", out->friction, 0, 1);
-    dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
-    dmb_check_above(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 0.0);
-    dmb_check_choice(&check, "axes", out->axes, DMB_MODES_AXES_TURNING, DMB_MODES_AXES_AT_REST);
-    dmb_check_within(&check, "spin", out->spin, -1e6, 1e6);
     return check.status;
 }
 

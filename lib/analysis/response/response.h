@@ -40,7 +40,7 @@ static inline double *dmb_response_value(const dmb_response *response, size_t po
 
 /* Options of a frequency response, checked. */
 
-enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
+enum { DMB_RESPONSE_INPUTS_MAX = 1024 };
 
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
 int32_t dmb_response_options_get(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);

@@ -8,35 +8,16 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/analyse.h"
+#include "model/field_check.h"
 #include "sim/access.h"
 #include "sim/sim.h"
 #include "system/system.h"
-
-DMB_DEFINE_INIT(dmb_order, 72,
-                {
-                    .order = 1.0,
-                    .excitation = {.struct_size = (uint32_t)sizeof(dmb_excitation),
-                                   .kind = DMB_EXCITATION_ECCENTRICITY,
-                                   .amplitude = 1.0},
-                })
-
-DMB_DEFINE_INIT(dmb_speeds_options, 80,
-                {
-                    .points = 200,
-                    .speed_low = 1.0,
-                    .speed_high = 30.0,
-                    .threshold = 1.0,
-                    .margin = 0.03,
-                    .refinement = 12,
-                    .contact = DMB_CONTACT_AS_IS,
-                    .equilibrium_tolerance = 1e-6,
-                })
 
 DMB_DECLARE_STRUCT(dmb_speed_band)
 
 DMB_DEFINE_INIT(dmb_speeds_report, 24, {.bands = 0})
 
-enum { POINTS_MAX = 100000, ORDERS_MAX = 256, BANDS_MAX = 100000 };
+enum { ORDERS_MAX = 256, BANDS_MAX = 100000 };
 
 typedef struct speeds_run {
     dmb_sim *sim;
@@ -58,17 +39,8 @@ typedef struct speeds_run {
 static int32_t read_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NONE);
-    *out = dmb_speeds_options_default();
-    if (given != NULL && dmb_speeds_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "speeds options: struct_size is not one of this library");
-        return DMB_ERR_STRUCT_SIZE;
-    }
-    dmb_check_count(&check, "points", out->points, 2, POINTS_MAX);
-    dmb_check_within(&check, "speed_low", out->speed_low, 1e-6, 1e6);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_speeds_options), given, out);
     dmb_check_above_field(&check, "speed_high", out->speed_high, "speed_low", out->speed_low);
-    dmb_check_within(&check, "speed_high", out->speed_high, 1e-6, 1e6);
-    dmb_check_within(&check, "threshold", out->threshold, 1e-9, 1e9);
-    dmb_check_within(&check, "margin", out->margin, 0.0, 0.5);
     dmb_speeds_report unused;
     if (check.status < 0 || out->report == NULL || dmb_speeds_report_read(&unused, out->report) >= 0)
         return check.status;
@@ -83,13 +55,11 @@ static int32_t read_order(const speeds_run *r, uint32_t i, dmb_order *out)
     const unsigned char *item = (const unsigned char *)r->orders + (size_t)i * r->orders->struct_size;
     uint32_t size;
     memcpy(&size, item, sizeof size);
-    *out = dmb_order_default();
-    if (size != r->orders->struct_size || dmb_order_read(out, item) < 0) {
-        dmb_message_set(&r->sim->message, "order %u: struct_size is not one of this library, or not that of the first",
-                        i);
+    if (size != r->orders->struct_size) {
+        dmb_message_set(&r->sim->message, "order %u: struct_size is not that of the first order", i);
         return DMB_ERR_STRUCT_SIZE;
     }
-    dmb_check_within(&check, "order", out->order, 1e-3, 1e3);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_order), item, out);
     return check.status;
 }
 

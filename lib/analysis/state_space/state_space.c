@@ -9,17 +9,12 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "model/field_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
 #include "system/system.h"
 
-DMB_DEFINE_INIT(dmb_state_space_options, 72,
-                {
-                    .static_correction = 1,
-                    .friction = 1,
-                    .equilibrium_tolerance = 1e-6,
-                })
 DMB_DEFINE_INIT(dmb_state_space_info, 56, {.states = 0})
 
 enum { STATES_MAX = 4096, INPUTS_MAX = 1024 };
@@ -42,20 +37,8 @@ static int32_t read_options(dmb_sim *sim, const dmb_state_space_options *given, 
                             dmb_state_space_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "state space options", DMB_NONE);
-    *out = dmb_state_space_options_default();
-    if (given != NULL && dmb_state_space_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "state space options: struct_size is not one of this library");
-        return DMB_ERR_STRUCT_SIZE;
-    }
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_state_space_options), given, out);
     const uint32_t most = out->form == DMB_STATE_MATRICES ? 0 : INPUTS_MAX;
-    dmb_check_choice(&check, "form", out->form, DMB_STATE_FULL, DMB_STATE_MATRICES);
-    dmb_check_choice(&check, "motion", out->motion, DMB_MOTION_SPEED, DMB_MOTION_ACCELERATION);
-    dmb_check_choice(&check, "static_correction", out->static_correction, 0, 1);
-    dmb_check_choice(&check, "contact", out->contact, DMB_CONTACT_AS_IS, DMB_CONTACT_CLOSED);
-    dmb_check_choice(&check, "friction", out->friction, 0, 1);
-    dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
-    dmb_check_within(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 1e-6, 1.0);
-    dmb_check_within(&check, "shift", out->shift, 0.0, 1e9);
     dmb_check_count(&check, "excitation_count", inputs, 0, most);
     dmb_check_count(&check, "output_count", outputs, 0, most);
     return check.status < 0 ? check.status : check_modes(sim, out);

@@ -3,30 +3,14 @@
 
 #include <string.h>
 
-#include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "model/field_check.h"
 #include "sim/access.h"
-
-DMB_DECLARE_STRUCT(dmb_static_options)
 
 int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "static options", DMB_NONE);
-    (void)dmb_static_options_init(out, (uint32_t)sizeof *out);
-    if (given != NULL) {
-        const int32_t status = dmb_static_options_read(out, given);
-        if (status < 0) {
-            dmb_message_set(&sim->message, "static options: struct_size is not one of this library");
-            return status;
-        }
-    }
-    dmb_check_count(&check, "max_iterations", out->max_iterations, 1, 10000);
-    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
-    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
-    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
-    dmb_check_count(&check, "load_steps", out->load_steps, 0, 10000);
-    dmb_check_choice(&check, "lay_on_wall", out->lay_on_wall, 0, 1);
-    dmb_check_choice(&check, "steady", out->steady, DMB_STEADY_AUTO, DMB_STEADY_RIGID);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_static_options), given, out);
     if (check.status >= 0 && out->steady >= DMB_STEADY_SLIDING &&
         (out->slip_axial != 0.0 || out->slip_rotation != 0.0)) {
         dmb_message_set(&sim->message,

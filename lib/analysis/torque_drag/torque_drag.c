@@ -13,11 +13,9 @@
 #include "sim/access.h"
 
 DMB_DEFINE_INIT(dmb_operation, 40, {.axial_speed = 0.0})
-DMB_DEFINE_INIT(dmb_torque_drag_options, 40, {.post_buckling = 1, .friction = -1.0, .depth_count = 1})
 DMB_DEFINE_INIT(dmb_torque_drag_row, 128, {.locked = 0})
 
 enum { DEPTHS_MAX = 1 << 20, OPERATIONS_MAX = 4096, OPERATIONS = DMB_OPERATION_BACK_REAM + 1 };
-#define FRICTION_MAX 10.0
 
 int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
 {
@@ -113,12 +111,7 @@ static int32_t read_options(request *r, const dmb_torque_drag_options *given)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag options", DMB_NONE);
     dmb_torque_drag_options *options = &r->options;
-    *options = dmb_torque_drag_options_default();
-    if (given != NULL && dmb_torque_drag_options_read(options, given) < 0)
-        return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the options is not one of this library");
-    dmb_check_choice(&check, "post_buckling", options->post_buckling, 0, 1);
-    if (options->friction != -1.0) dmb_check_within(&check, "friction", options->friction, 0.0, FRICTION_MAX);
-    dmb_check_choice(&check, "friction_by_depth", options->friction_by_depth, 0, 1);
+    dmb_options_get(&check, DMB_OPTIONS_OF(dmb_torque_drag_options), given, options);
     dmb_check_count(&check, "depth_count", options->depth_count, 1, options->depths != NULL ? DEPTHS_MAX : 1);
     if (check.status < 0) return check.status;
     const int32_t status = find_string(r);
@@ -356,14 +349,14 @@ static double misses_by(fitting *f, double friction)
 /* Bisection: hook load and torque are monotonic in the coefficient. */
 static int32_t bisect(fitting *f, double *friction)
 {
-    double low = 0.0, high = FRICTION_MAX;
+    double low = 0.0, high = DMB_FRICTION_MAX;
     const double at_low = misses_by(f, low), at_high = misses_by(f, high);
     if (!((at_low <= 0.0 && at_high >= 0.0) || (at_low >= 0.0 && at_high <= 0.0)) || at_low == at_high) {
         dmb_message_set(
             &f->r->sim->message,
             "friction factor: measured value = %g, must be between %g (friction 0) and %g (friction %g); look at "
             "its sign, the operation and the weights",
-            f->value, at_low + f->value, at_high + f->value, FRICTION_MAX);
+            f->value, at_low + f->value, at_high + f->value, DMB_FRICTION_MAX);
         return DMB_ERR_VALUE;
     }
     for (int i = 0; i < 60; i++) {

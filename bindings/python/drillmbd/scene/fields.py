@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum, IntFlag
 from typing import Any
 
@@ -39,6 +40,19 @@ class Field:
     count: int = 0       #: of an array; 0: a single value
     enum: Any = None
     about: str = ""
+    bound: tuple[str, float, float] | None = None  #: kind of range, low, high, SI; None: the library checks the whole part
+
+    def outside(self, value: float) -> str:
+        """The range in words if a number is not in it, otherwise nothing."""
+        if self.bound is None:
+            return ""
+        kind, low, high = self.bound
+        unit = "" if self.unit in ("", "-") or self.unit.startswith("unit of") else f" (in {self.unit})"
+        if kind == "above":
+            return "" if low < value < math.inf else f"must be > {low:g}{unit}"
+        if low <= value <= high or (kind == "zero_or" and value == 0.0) or (kind == "minus_one_or" and value == -1.0):
+            return ""
+        return f"must be {dict(zero_or='0 or ', minus_one_or='-1 or ').get(kind, '')}{low:g} .. {high:g}{unit}"
 
     def unit_at(self, index: int) -> str:
         """The unit of one number of an array: three of translation then three of rotation, or one each."""
@@ -57,7 +71,7 @@ def fields_of(struct: Any) -> dict[str, Field]:
     for name, kind in struct._fields_:
         if name not in LEFT_OUT and (struct.__name__, name) not in LEFT_OUT_OF and "reserved" not in name and not _is_pointer(kind):
             unit, about = struct.field_docs.get(name, ("", ""))
-            found[name] = _field(name, kind, unit, about)
+            found[name] = replace(_field(name, kind, unit, about), bound=struct.bounds.get(name))
     return found
 
 

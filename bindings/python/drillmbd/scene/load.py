@@ -247,10 +247,21 @@ class Loader:
                 continue
             try:
                 found[key] = fields.read(field, value, unit_of(key))
+                if self._is_outside(path + (key,), field, value, found[key]):
+                    del found[key]
+                    continue
                 self.problems.remark(path + (key,), value, fields.remark(field, value, unit_of(key)))
             except ValueProblem as error:
                 self.problems.add(path + (key,), value, str(error))
         return found
+
+    def _is_outside(self, path: Path, field: Field, written: Any, value: Any) -> bool:
+        """Whether a number of a setting is outside its range, which becomes a problem."""
+        reason = next(filter(None, (field.outside(float(one)) for one in (value if isinstance(value, (list, tuple)) else [value])
+                                    if isinstance(one, (int, float)))), "")
+        if reason:
+            self.problems.add(path, written, reason)
+        return bool(reason)
 
     def _reference(self, path: Path, field: Field, value: Any) -> Any:
         if field.kind == "place":

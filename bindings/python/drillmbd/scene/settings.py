@@ -1,8 +1,6 @@
 """Questions of a scene file: options of the run, its outputs, the analyses."""
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
@@ -28,13 +26,8 @@ LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
           "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes"),
           "make_up_torque": Field("make_up_torque", "quantity", "N m", about="of the threads, limit of the failure connection-torque")}
 
-_above_zero: tuple[str, Callable[[float], bool]] = ("> 0", lambda value: 0.0 < value < math.inf)
-_from_zero: tuple[str, Callable[[float], bool]] = (">= 0", lambda value: 0.0 <= value < math.inf)
-FATIGUE_BOUNDS: dict[str, tuple[str, Callable[[float], bool]]] = {
-    "curve_stress": _above_zero, "curve_cycles": _above_zero, "stress_range": _above_zero,
-    "endurance": _from_zero, "tensile_strength": _from_zero,
-    "slope": ("1 .. 50", lambda value: 1.0 <= value <= 50.0), "concentration": (">= 1", lambda value: 1.0 <= value < math.inf),
-    "classes": ("8 .. 65536", lambda value: 8 <= value <= 65536), "points": ("2 .. 360", lambda value: 2 <= value <= 360)}
+# Settings of which the second must be above the first, and whether it may be equal to it.
+ORDERED = {"speeds": ("speed_low", "speed_high", False), "response": ("frequency_low", "frequency_high", True)}
 
 
 class Asked:
@@ -80,7 +73,8 @@ class Asked:
         values = self.loader.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
                            lambda name: unit if name in ("factor_max", "step") else None)
         if kind == "fatigue":
-            self._curve(table, values)
+            self._curve(table)
+        self._check_order(kind, values)
         if kind == "response":
             values["excitation"] = [self._excitation(path, one) for path, one in self.loader.tables(table, (kind,), "excitation")]
         if kind == "speeds":
@@ -97,15 +91,26 @@ class Asked:
                     self.loader.problems.add((kind,), None, f"must have at least one [[{kind}.{key}]]")
         return values
 
-    def _curve(self, table: dict[str, Any], values: dict[str, Any]) -> None:
-        """The S-N curve is required; the bounds are those of dmb_fatigue_create. Fatigue is counted in a run."""
+    def _check_order(self, kind: str, values: dict[str, Any]) -> None:
+        """Ends of a range in their order; those left out have their defaults."""
+        if kind == "modes" and "band" in values and not values["band"][0] < values["band"][1]:
+            self.loader.problems.add((kind, "band"), self.loader.written((kind, "band")), "must increase")
+        if kind not in ORDERED:
+            return
+        low, high, may_be_equal = ORDERED[kind]
+        default = DEFINITIONS[kind]()
+        ends = [values.get(key, getattr(default, key)) for key in (low, high)]
+        if ends[0] < ends[1] or (may_be_equal and ends[0] == ends[1]):
+            return
+        key, other, words = (high, low, "above") if high in values else (low, high, "below")
+        written = self.loader.written((kind, other)) or f"{getattr(default, other):g} {fields_of(DEFINITIONS[kind])[other].unit} by default"
+        self.loader.problems.add((kind, key), self.loader.written((kind, key)), f"must be {words} {other}, {written}")
+
+    def _curve(self, table: dict[str, Any]) -> None:
+        """The S-N curve is required. Fatigue is counted in a run."""
         for key in ("curve_stress", "slope"):
             if key not in table:
                 self.loader.problems.add(("fatigue",), None, f"must have a {key}, of the S-N curve of the pipes")
-        for key, value in values.items():
-            bound, fits = FATIGUE_BOUNDS[key]
-            if not fits(value):
-                self.loader.problems.add(("fatigue", key), table[key], f"must be {bound}")
         if "end" not in self.loader.table(("run",)):
             self.loader.problems.add(("fatigue",), None, "counts the cycles of a run: give [run] end")
 
