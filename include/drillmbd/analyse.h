@@ -302,7 +302,7 @@ typedef struct dmb_check_report {
     uint32_t tridiagonal_nodes;  /* [-] nodes whose chains the block-tridiagonal solver takes */
     uint32_t sparse_nodes;       /* [-] nodes of chains that equations connect: the sparse solver's */
     uint32_t blocks;             /* [-] of the sparse solver: clusters and the other nodes of those chains */
-    uint32_t fill;               /* [-] couplings of blocks that its elimination adds, in CHOLMOD's order */
+    uint32_t fill;               /* [-] couplings of blocks that its elimination adds */
     uint32_t clusters;           /* [-] groups of nodes that equations connect directly */
     uint32_t largest_cluster;    /* [-] coordinates of the largest */
     uint32_t warnings;           /* [-] lines of warning in the text */

@@ -32,13 +32,13 @@ DMB_C_BEGIN
 DMB_API uint32_t dmb_version(void);
 
 /* The abilities of this build. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal
- * to rounding. CHOLMOD: without it the order of elimination of joints is the library's own. FILES: recorders and VTK
- * write files. HEAP: malloc and free are the default allocator; without it each model needs its own. */
-enum { DMB_HAS_LAPACK = 0, DMB_HAS_CHOLMOD = 1, DMB_HAS_FILES = 2, DMB_HAS_HEAP = 3 };
+ * to rounding. FILES: recorders and VTK write files. HEAP: malloc and free are the default allocator; without it each
+ * model needs its own. */
+enum { DMB_HAS_LAPACK = 0, DMB_HAS_FILES = 1, DMB_HAS_HEAP = 2 };
 /* 1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there.
  * DMB_ERR_VALUE: none of the above. Thread-safe. */
 DMB_API int32_t dmb_has(int32_t what);
-/* One line: version, and where eigenproblems, order of elimination, files and memory come from. Never NULL. */
+/* One line: version, and where eigenproblems, files and memory come from. Never NULL. */
 DMB_API const char *dmb_build_info(void);
 
 /* ---- Status ------------------------------------------------------------------------------------------------------

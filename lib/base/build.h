@@ -5,10 +5,7 @@
 #ifndef DMB_WITH_LAPACK /* dense eigenproblems by LAPACKE */
 #define DMB_WITH_LAPACK 0
 #endif
-#ifndef DMB_WITH_CHOLMOD /* order of elimination by CHOLMOD */
-#define DMB_WITH_CHOLMOD 0
-#endif
-#ifndef DMB_LAZY /* LAPACKE and CHOLMOD are loaded at run time when they are first needed */
+#ifndef DMB_LAZY /* LAPACKE is loaded at run time when it is first needed */
 #define DMB_LAZY 0
 #endif
 #ifndef DMB_WITH_LANES /* kernels with 2, 4 and 8 lanes in addition to the scalar kernels; results are bitwise equal. \

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/bridge.h"
+#include "math/elimination_order.h"
 
 /* Work memory for the construction of a pattern. */
 typedef struct analysis {
@@ -156,7 +156,7 @@ static int32_t analyse(const dmb_allocator *allocator, analysis *s, uint32_t edg
     list_as_given(s, edge_count, edges);
     list_sorted(s);
     pack(s);
-    const int32_t status = dmb_fill_reducing_order(allocator, s->n, s->start, s->neighbour, s->order);
+    const int32_t status = dmb_elimination_order(allocator, s->n, s->start, s->neighbour, s->order);
     if (status < 0) return status;
     for (uint32_t k = 0; k < s->n; k++) {
         s->position[s->order[k]] = k;
@@ -245,7 +245,7 @@ int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const
 {
     analysis s = {.n = n, .ends = 2 * (size_t)edge_count};
     dmb_block_pattern made = {.n = n};
-    if (n >= INT32_MAX || edge_count > INT32_MAX / 2) return DMB_ERR_TOO_LARGE; /* CHOLMOD counts in int */
+    if (n >= INT32_MAX || edge_count > INT32_MAX / 2) return DMB_ERR_TOO_LARGE; /* the graph has indices of 32 bits */
     for (uint32_t i = 0; i < n; i++)
         if (capacity[i] > DMB_BLOCK_CAPACITY_MAX) return DMB_ERR_TOO_LARGE;
     int32_t status = allocate_analysis(allocator, &s);

@@ -52,9 +52,8 @@ typedef struct dmb_block_pattern {
 /* Computes the pattern of n blocks (n may be 0) with the given capacities, 0 .. DMB_BLOCK_CAPACITY_MAX, coupled by
  * edge_count edges: in any order and direction; repetitions and edges from a block to itself are permitted; ends must
  * be below n.
- * Allocates one block of memory that is kept and one for the duration of the call; the ordering allocates further
- * memory (math/bridge_cholmod.c). Errors, with *pattern unchanged: DMB_ERR_NO_MEMORY; DMB_ERR_TOO_LARGE;
- * DMB_ERR_UNSUPPORTED (math/bridge.h). */
+ * Allocates one block of memory that is kept; all other memory is released. Errors, with *pattern unchanged:
+ * DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
 int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const uint32_t *capacity,
                                uint32_t edge_count, const dmb_block_edge *edges, dmb_block_pattern *pattern);
 

@@ -1,5 +1,5 @@
-/* All calls of other libraries. LAPACK is used by analyses only, never by steps: dense eigenproblems, and the rank of a
- * set of equations. Without LAPACK, bridge_eigen.c is used; its results are equal to rounding. Matrices are
+/* All calls of LAPACK, the only other library. Analyses use it, steps never: dense eigenproblems, and the rank of a set
+ * of equations. Without LAPACK, bridge_eigen.c is used; its results are equal to rounding. Matrices are
  * column-major without gaps; all workspace belongs to the caller. Each function returns 0, or the error code of LAPACK.
  */
 #ifndef DMB_MATH_BRIDGE_H
@@ -13,7 +13,6 @@
 /* 1 if the library belongs to the build and can be called; a library that is loaded on demand is loaded by this call.
  */
 int dmb_has_lapack(void);
-int dmb_has_cholmod(void);
 
 /* Largest number of rows: LAPACK counts its workspace in integers of 32 bits. */
 enum { DMB_EIGEN_MAX = 32766 };
@@ -63,21 +62,6 @@ typedef struct dmb_weighted_rows {
  * order: shape (rows): the first `rank` rows are independent, the others redundant, in the order of pivoting. */
 void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out);
 
-/* Fill-reducing order of elimination of a graph, by the symbolic analysis of CHOLMOD: approximate
- * minimum degree (AMD), then a postorder of the elimination tree, which keeps chains together in memory.
- *
- * For the compile step only: CHOLMOD allocates by malloc, not by the caller's allocator, and releases all memory before
- * the call returns. It is configured to print nothing and to use AMD only: its other method, METIS, calls srand and
- * catches signals, both of which belong to the host, and uses rand, which another thread may use at the same time. A
- * build without CHOLMOD uses bridge_order.c. */
-
-/* The neighbours of node i are neighbour[start[i]] .. neighbour[start[i+1] - 1], without i itself and without
- * repetition; every edge is listed at both its ends. order (n) receives the nodes in the order of elimination. The
- * result is deterministic. n < 2^31. DMB_OK; with order undefined DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, and
- * DMB_ERR_UNSUPPORTED if CHOLMOD belongs to the build and could not be loaded. */
-int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
-                                const int32_t *neighbour, uint32_t *order);
-
 /* ---- bridge_load.c ----------------------------------------------------------------------------------------------- */
 
 /* Libraries that are loaded when a call first requires them, and remain loaded: a program that only steps never loads
@@ -88,14 +72,6 @@ typedef void (*dmb_foreign)(void);
 
 /* Finds functions by name in the library of that SONAME; returns 0 if the library or one of them is missing. */
 int dmb_foreign_load(const char *soname, size_t count, const char *const *names, dmb_foreign *functions);
-
-/* ---- bridge_order.c ---------------------------------------------------------------------------------------------- */
-
-/* Minimum degree ordering in C only, for builds without CHOLMOD. Interface of dmb_fill_reducing_order; of equal degrees
- * the lower index is first. Memory: some 12 integers per node, the graph and its fill, all released. DMB_OK,
- * DMB_ERR_NO_MEMORY or DMB_ERR_TOO_LARGE. */
-int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int32_t *start, const int32_t *neighbour,
-                           uint32_t *order);
 
 /* ---- bridge_eigen.c, bridge_eigen_general.c ---------------------------------------------------------------------- */
 

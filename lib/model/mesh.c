@@ -8,7 +8,6 @@
 #include "base/message.h"
 #include "base/value_check.h"
 #include "force/hole.h"
-#include "math/bridge.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/scene.h"
@@ -261,12 +260,7 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     mesh->features = dmb_mesh_features(mesh);
     for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
     if (status < 0) return status;
-    status = dmb_mesh_finalise(mesh, scene);
-    if (status == DMB_ERR_UNSUPPORTED && !dmb_has_cholmod())
-        dmb_message_set(&mesh->model->message,
-                        "compile: joints need the order of elimination of CHOLMOD, which could not be "
-                        "loaded: install it (Debian: libcholmod3), or build with DMB_WITH_CHOLMOD=OFF");
-    return status;
+    return dmb_mesh_finalise(mesh, scene);
 }
 
 typedef uint32_t (*dmb_warning)(const dmb_scene *scene, uint32_t from, dmb_message *text);

@@ -301,7 +301,6 @@ int32_t dmb_has(int32_t what)
 {
     switch (what) {
     case DMB_HAS_LAPACK: return dmb_has_lapack();
-    case DMB_HAS_CHOLMOD: return dmb_has_cholmod();
     case DMB_HAS_FILES: return DMB_WITH_FILES;
     case DMB_HAS_HEAP: return DMB_WITH_HEAP;
     default: return dmb_failed("ability", DMB_ERR_VALUE);
@@ -321,11 +320,6 @@ int32_t dmb_has(int32_t what)
 #else
 #define EIGENPROBLEMS "own"
 #endif
-#if DMB_WITH_CHOLMOD
-#define ORDER "CHOLMOD" LOADED
-#else
-#define ORDER "own"
-#endif
 #if DMB_WITH_FILES
 #define FILES "yes"
 #else
@@ -340,6 +334,5 @@ int32_t dmb_has(int32_t what)
 const char *dmb_build_info(void)
 {
     return "libdrillmbd " TEXT(DMB_VERSION_MAJOR) "." TEXT(DMB_VERSION_MINOR) "." TEXT(
-        DMB_VERSION_PATCH) "; eigenproblems: " EIGENPROBLEMS "; order of elimination: " ORDER "; files: " FILES
-                           "; memory: " MEMORY;
+        DMB_VERSION_PATCH) "; eigenproblems: " EIGENPROBLEMS "; files: " FILES "; memory: " MEMORY;
 }

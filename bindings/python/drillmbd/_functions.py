@@ -320,7 +320,7 @@ FUNCTION_DOCS = {
     "dmb_buckling_shape":
         "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
     "dmb_build_info":
-        "One line: version, and where eigenproblems, order of elimination, files and memory come from. Never NULL.",
+        "One line: version, and where eigenproblems, files and memory come from. Never NULL.",
     "dmb_fatigue_create":
         "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message says why), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then.",
     "dmb_fatigue_destroy":

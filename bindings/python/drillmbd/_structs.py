@@ -1533,7 +1533,7 @@ class CheckReport(Sized):
         "tridiagonal_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes"),
         "sparse_nodes": ("-", "nodes of chains that equations connect: the sparse solver's"),
         "blocks": ("-", "of the sparse solver: clusters and the other nodes of those chains"),
-        "fill": ("-", "couplings of blocks that its elimination adds, in CHOLMOD's order"),
+        "fill": ("-", "couplings of blocks that its elimination adds"),
         "clusters": ("-", "groups of nodes that equations connect directly"),
         "largest_cluster": ("-", "coordinates of the largest"),
         "warnings": ("-", "lines of warning in the text"),

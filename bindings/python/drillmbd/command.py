@@ -57,8 +57,8 @@ FMU = """examples:
   drillmbd fmu rig.toml -o rig.fmu --sources      with its source code, for other machines
 
 [[input]] of the scene become inputs and tunable parameters of the unit, [[output]] its outputs, [[event]] counts and, where the importer
-allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke and
-libcholmod must be installed where it runs."""
+allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke must
+be installed where it runs."""
 
 LIVE = """examples:
   drillmbd live hole.toml -o hole.html                 opens in any browser, without a network
@@ -384,8 +384,7 @@ def _live(options: Any) -> int:
         same = found == wanted
         if not options.quiet or not same:
             print(f"{options.replay}: {end:g} s, hash {found}, " + ("as in the browser" if same else f"but {wanted} in the browser: another version of the library "
-                                                                   "or of the scene file, or joints whose order of elimination is CHOLMOD's here, so that the "
-                                                                   "states are equal to rounding only"))
+                                                                   "or of the scene file"))
         return 0 if same else exit_status.FAILED
     target = options.output or os.path.splitext(options.scene)[0] + ".html"
     if os.path.isdir(target):

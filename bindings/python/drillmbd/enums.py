@@ -116,13 +116,11 @@ ERR_CANCELLED = Status.ERR_CANCELLED
 class Has(IntEnum):
     """Values DMB_HAS_... of the headers."""
     LAPACK = 0
-    CHOLMOD = 1
-    FILES = 2
-    HEAP = 3
+    FILES = 1
+    HEAP = 2
 
 
 HAS_LAPACK = Has.LAPACK
-HAS_CHOLMOD = Has.CHOLMOD
 HAS_FILES = Has.FILES
 HAS_HEAP = Has.HEAP
 

@@ -376,7 +376,7 @@ def build_description(identifier: str, names: list[str]) -> bytes:
         ElementTree.SubElement(files, "SourceFile", {"name": name})
     ElementTree.SubElement(files, "PreprocessorDefinition", {"name": "DMB_STATIC"})
     ElementTree.SubElement(files, "IncludeDirectory", {"name": "."})
-    for name in ("lapacke", "cholmod", "m"):
+    for name in ("lapacke", "m"):
         ElementTree.SubElement(build, "Library", {"name": name, "external": "true"})
     ElementTree.indent(root)
     return bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"

@@ -1,13 +1,13 @@
 // The JavaScript module under node: the firmware scene has the hash of the native library, defaults and queries have their values,
 // refusals are exceptions with their parts, a full memory and a trap leave nothing behind.
-// usage: node test_module.mjs HASH [FOLDER of the built package]
+// usage: node test_module.mjs HASH JOINTED_HASH [FOLDER of the built package]
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-const [wanted, folder = "build/web"] = process.argv.slice(2);
+const [wanted, jointed, folder = "build/web"] = process.argv.slice(2);
 const { compiled, constants: c, DrillError, instantiate, load, station } = await import(pathToFileURL(`${folder}/index.mjs`));
 const library = await load();
 
@@ -23,6 +23,40 @@ function firmware(pipes = 20) {
     return { model, bit, drive, sim: model.sim({ bounded_work: 1, max_iterations: 4 }) };
 }
 
+/** Hash of tests/firmware/jointed.h. */
+function jointedHash(own) {
+    const model = own.model(), place = (part, pipe = 0, fraction = 0) => station(part, pipe, fraction);
+    const strings = [0, 1, 2].map((k) => {
+        const string = model.addString({ position: [0, 0, -0.1 * k] });
+        model.addPipes({ string, length: 1, outer_diameter: 0.09 - 0.02 * k, inner_diameter: 0.05 - 0.01 * k }, 6);
+        return string;
+    });
+    for (let i = 0; i < 6; i++) {
+        const k = i % 2, kind = k === 0 ? c.JOINT_SPHERICAL : c.JOINT_UNIVERSAL;
+        model.addJoint({ kind, place_a: place(strings[k], i, 1), place_b: place(strings[k + 1], i, 1), match: 1 });
+    }
+    const bar = (x, z, angle) =>
+        model.addBody({ position: [x, 2, z], rotation: [0, -angle, 0], mass: 1, centre: [0.5, 0, 0], inertia: [0.001, 0.08, 0.08, 0, 0, 0] });
+    const hinge = (place_a, origin_a, b) =>
+        model.addJoint({ kind: c.JOINT_REVOLUTE, ...(place_a && { place_a }), place_b: place(b), origin_a, axis_a: [0, 1, 0], match: 1 });
+    const cranks = [0, 1, 2, 3, 4, 5, 6].map((k) => {
+        const crank = bar(k, 0, 1.25);
+        hinge(null, [k, 2, 0], crank);
+        return crank;
+    });
+    for (let k = 0; k < 6; k++) {
+        const coupler = bar(k + 0.3153223623952687, 0.9489846193555862, 0);
+        for (const crank of cranks.slice(k, k + 2)) hinge(place(crank), [1, 0, 0], coupler);
+    }
+    model.compile();
+    const sim = model.sim();
+    for (let i = 0; i < 100; i++) sim.step(1e-3);
+    const hash = sim.hash();
+    sim.destroy();
+    model.destroy();
+    return hash;
+}
+
 /** The DrillError of a call. */
 function refusal(call) {
     try {
@@ -35,12 +69,17 @@ function refusal(call) {
 }
 
 test("hash of the firmware scene after 100 steps is that of the native library", () => {
-    assert.match(wanted ?? "", /^[0-9a-f]{16}$/, "usage: node test_module.mjs HASH");
+    assert.match(wanted ?? "", /^[0-9a-f]{16}$/, "usage: node test_module.mjs HASH JOINTED_HASH");
     const { sim, model } = firmware();
     for (let i = 0; i < 100; i++) sim.step(1e-3);
     assert.equal(sim.hash(), wanted);
     sim.destroy();
     model.destroy();
+});
+
+test("hash of the scene with joints is that of every build", () => {
+    assert.match(jointed ?? "", /^[0-9a-f]{16}$/, "usage: node test_module.mjs HASH JOINTED_HASH");
+    assert.equal(jointedHash(library), jointed);
 });
 
 /** Hash of a string of 101 pipes, an odd number, on its wall after 0.2 s: with contact, friction, impacts and several Newton iterations. */
@@ -62,6 +101,7 @@ test("with SIMD and without: the same bits", async () => {
     assert.equal(plain.lanes, 1);
     assert.equal(library.lanes, 2, "load() takes the file with SIMD");
     assert.equal(onTheWall(wide), onTheWall(plain));
+    assert.equal(jointedHash(plain), jointed);
 });
 
 test("an engine without SIMD takes the other file", async () => {

@@ -153,9 +153,8 @@ static void put_solver(sheet *s, const dmb_check_report *r)
     if (r->sparse_nodes == 0)
         dmb_message_set(&line, "  solver: block-tridiagonal, %u nodes\n", r->tridiagonal_nodes);
     else
-        dmb_message_set(
-            &line, "  solver: block-tridiagonal %u nodes, sparse %u nodes in %u blocks (fill %u, CHOLMOD's order)\n",
-            r->tridiagonal_nodes, r->sparse_nodes, r->blocks, r->fill);
+        dmb_message_set(&line, "  solver: block-tridiagonal %u nodes, sparse %u nodes in %u blocks (fill %u)\n",
+                        r->tridiagonal_nodes, r->sparse_nodes, r->blocks, r->fill);
     put(s, line.text);
 }
 

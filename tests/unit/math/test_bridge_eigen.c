@@ -1,5 +1,5 @@
-/* The library's own dense eigenproblems, rank and minimum degree against LAPACK and CHOLMOD, and against their
- * equations: random, badly scaled, defective, repeated, singular and triangular matrices, chains and grids. */
+/* The library's own dense eigenproblems and rank against LAPACK, and against their equations: random, badly scaled,
+ * defective, repeated, singular and triangular matrices. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "check.h"
-#include "math/block_pattern.h"
 #include "math/bridge.h"
 
 enum { MAX = 60, SQUARE = MAX * MAX, WORK = 2 * SQUARE + 20 * MAX };
@@ -268,103 +267,12 @@ static void rank_as_lapack(void **state)
     }
 }
 
-/* ---- Order ------------------------------------------------------------------------------------------------------- */
-
-static int32_t start[901], neighbour[8 * 900];
-
-/* `wide` x `high` nodes, each with its neighbours; the order of numbers shuffled by a stride. */
-static uint32_t grid(uint32_t wide, uint32_t high)
-{
-    const uint32_t n = wide * high;
-    int32_t ends = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        const uint32_t x = i % wide, y = i / wide;
-        start[i] = ends;
-        if (x > 0) neighbour[ends++] = (int32_t)(i - 1);
-        if (x + 1 < wide) neighbour[ends++] = (int32_t)(i + 1);
-        if (y > 0) neighbour[ends++] = (int32_t)(i - wide);
-        if (y + 1 < high) neighbour[ends++] = (int32_t)(i + wide);
-    }
-    start[n] = ends;
-    return n;
-}
-
-/* Couplings of the factor beyond those of the graph, by elimination on a matrix of bits. */
-static uint32_t fill_of(uint32_t n, const uint32_t *order)
-{
-    unsigned char *coupled = calloc(n, n);
-    uint32_t fill = 0;
-    assert_non_null(coupled);
-    for (uint32_t i = 0; i < n; i++)
-        for (int32_t k = start[i]; k < start[i + 1]; k++) coupled[(size_t)i * n + (uint32_t)neighbour[k]] = 1;
-    unsigned char *gone = calloc(n, 1);
-    assert_non_null(gone);
-    for (uint32_t k = 0; k < n; k++) {
-        const uint32_t p = order[k];
-        assert_true(p < n && !gone[p]);
-        gone[p] = 1;
-        for (uint32_t i = 0; i < n; i++) {
-            if (gone[i] || !coupled[(size_t)p * n + i]) continue;
-            for (uint32_t j = 0; j < n; j++) {
-                if (gone[j] || j == i || !coupled[(size_t)p * n + j] || coupled[(size_t)i * n + j]) continue;
-                coupled[(size_t)i * n + j] = coupled[(size_t)j * n + i] = 1;
-                fill++;
-            }
-        }
-    }
-    free(gone);
-    free(coupled);
-    return fill;
-}
-
-static void order_as_cholmod(void **state)
-{
-    (void)state;
-    static const uint32_t sizes[][2] = {{1, 1}, {2, 1}, {40, 1}, {7, 5}, {20, 4}, {30, 30}};
-    const dmb_allocator allocator = dmb_allocator_default();
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
-        const uint32_t n = grid(sizes[s][0], sizes[s][1]);
-        uint32_t own[900], theirs[900];
-        assert_int_equal(dmb_minimum_degree(&allocator, n, start, neighbour, own), DMB_OK);
-        assert_int_equal(dmb_fill_reducing_order(&allocator, n, start, neighbour, theirs), DMB_OK);
-        const uint32_t fill = fill_of(n, own), reference = fill_of(n, theirs);
-        printf("%u x %u: fill %u, CHOLMOD %u\n", sizes[s][0], sizes[s][1], fill, reference);
-        assert_true(fill <= reference + reference / 5);
-        if (sizes[s][1] == 1) assert_int_equal(fill, 0);
-    }
-}
-
-static long until_failure;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    const dmb_allocator allocator = dmb_allocator_default();
-    (void)context;
-    return until_failure-- == 0 ? NULL : allocator.allocate(allocator.context, size, alignment);
-}
-
-static void order_without_memory(void **state)
-{
-    (void)state;
-    dmb_allocator allocator = dmb_allocator_default();
-    const uint32_t n = grid(10, 10);
-    uint32_t own[100];
-    int32_t status = DMB_ERR_NO_MEMORY;
-    allocator.allocate = take;
-    for (long fail = 0; status == DMB_ERR_NO_MEMORY && fail < 100; fail++) {
-        until_failure = fail;
-        status = dmb_minimum_degree(&allocator, n, start, neighbour, own);
-    }
-    assert_int_equal(status, DMB_OK);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(symmetric_as_lapack), cmocka_unit_test(pair_as_lapack),
                                        cmocka_unit_test(general_as_lapack),   cmocka_unit_test(scaled_beyond_reason),
                                        cmocka_unit_test(rows_of_zeros),       cmocka_unit_test(numbers_that_are_none),
                                        cmocka_unit_test(state_matrices),      cmocka_unit_test(special_matrices),
-                                       cmocka_unit_test(falling_matrices),    cmocka_unit_test(rank_as_lapack),
-                                       cmocka_unit_test(order_as_cholmod),    cmocka_unit_test(order_without_memory)};
+                                       cmocka_unit_test(falling_matrices),    cmocka_unit_test(rank_as_lapack)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

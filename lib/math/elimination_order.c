@@ -1,9 +1,12 @@
 /* The remaining graph is stored as a quotient graph: an eliminated node becomes an element, a list of the nodes that it
  * couples; elements adjacent to it are absorbed (George, Liu, The evolution of the minimum degree ordering algorithm,
  * 1989). The list of a node loses at least one entry for each element that it gains, so that lists of nodes are updated
- * in place. Degrees are exact; nodes are in a heap by degree and index. */
-#include "math/bridge.h"
+ * in place. Degrees are exact; nodes are in a heap by degree and index. The absorbing pivot is the parent in the
+ * elimination tree. Hubs, nodes with very many neighbours, are eliminated last: their lists would be read again for
+ * each neighbour that is eliminated (Amestoy, Davis, Duff, An approximate minimum degree ordering algorithm, 1996). */
+#include "math/elimination_order.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -16,9 +19,10 @@ typedef struct quotient {
     uint32_t *degree;  /* (n) */
     uint32_t *mark;    /* (n) the last round that visited a node */
     uint32_t *heap;    /* (n) nodes, the smallest (degree, index) first */
-    uint32_t *place;   /* (n) of a node in the heap; DMB_NONE once eliminated */
+    uint32_t *place;   /* (n) of a node in the heap; DMB_NONE once eliminated, and of hubs */
     size_t *element;   /* (n) first node of element e in `nodes` */
     uint32_t *members; /* (n) their number; 0 once absorbed */
+    uint32_t *parent;  /* (n) pivot that absorbed element e; DMB_NONE of roots and hubs */
     uint32_t left, round;
     dmb_vector nodes; /* uint32_t */
 } quotient;
@@ -105,8 +109,10 @@ static int32_t make_element(quotient *q, const dmb_allocator *allocator, uint32_
     q->round++;
     for (uint32_t k = 0; k < q->length[p] && status >= 0; k++) {
         if (list[k] < 0) {
-            status = append_members(q, allocator, (uint32_t)(-1 - list[k]));
-            q->members[-1 - list[k]] = 0;
+            const uint32_t e = (uint32_t)(-1 - list[k]);
+            status = append_members(q, allocator, e);
+            q->members[e] = 0;
+            q->parent[e] = p;
         } else {
             const uint32_t node = (uint32_t)list[k];
             if (is_new(q, node)) status = dmb_vector_append(&q->nodes, allocator, &node, 1);
@@ -161,6 +167,54 @@ static int32_t eliminate(quotient *q, const dmb_allocator *allocator, uint32_t p
     return DMB_OK;
 }
 
+static int32_t eliminate_all(quotient *q, const dmb_allocator *allocator, uint32_t *order)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; q->left > 0 && status >= 0; k++) {
+        order[k] = remove_least(q);
+        status = eliminate(q, allocator, order[k]);
+    }
+    return status;
+}
+
+/* ---- Postorder --------------------------------------------------------------------------------------------------- */
+
+/* Appends the subtree of root to order, each node after its children; their lists are used up. */
+static uint32_t append_subtree(const quotient *q, uint32_t root, uint32_t *child, const uint32_t *sibling, uint32_t k,
+                               uint32_t *order)
+{
+    uint32_t node = root;
+    for (;;) {
+        while (child[node] != DMB_NONE) {
+            const uint32_t next = child[node];
+            child[node] = sibling[next];
+            node = next;
+        }
+        order[k++] = node;
+        if (node == root) return k;
+        node = q->parent[node];
+    }
+}
+
+/* Children and roots keep their order of elimination. */
+static void postorder(const quotient *q, uint32_t count, uint32_t *order)
+{
+    uint32_t *child = q->mark, *sibling = q->place, *roots = q->heap;
+    uint32_t root_count = 0, k = 0;
+    for (uint32_t i = 0; i < q->n; i++) child[i] = DMB_NONE;
+    for (uint32_t i = count; i-- > 0;) {
+        const uint32_t node = order[i], parent = q->parent[node];
+        if (parent == DMB_NONE) continue;
+        sibling[node] = child[parent];
+        child[parent] = node;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (q->parent[order[i]] == DMB_NONE) roots[root_count++] = order[i];
+    for (uint32_t r = 0; r < root_count; r++) k = append_subtree(q, roots[r], child, sibling, k, order);
+}
+
+/* ---- The order --------------------------------------------------------------------------------------------------- */
+
 static void lay_out(dmb_arena *arena, quotient *q)
 {
     q->list = DMB_ARENA_ARRAY(arena, int32_t, (size_t)q->start[q->n]);
@@ -171,24 +225,41 @@ static void lay_out(dmb_arena *arena, quotient *q)
     q->place = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
     q->element = DMB_ARENA_ARRAY(arena, size_t, q->n);
     q->members = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->parent = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
 }
 
-static void begin(quotient *q, const int32_t *neighbour)
+/* Hubs are written to the end of order. */
+static void set_hubs_aside(quotient *q, uint32_t *order)
 {
+    const double bound = fmax(16.0, 10.0 * sqrt(q->n));
+    uint32_t hubs = 0;
+    for (uint32_t i = q->n; i-- > 0;) {
+        q->length[i] = (uint32_t)(q->start[i + 1] - q->start[i]);
+        q->place[i] = q->length[i] > bound ? DMB_NONE : 0;
+        if (q->place[i] == DMB_NONE) order[q->n - ++hubs] = i;
+    }
+}
+
+/* Returns the number of nodes other than hubs; degrees are without hubs. */
+static uint32_t begin(quotient *q, const int32_t *neighbour, uint32_t *order)
+{
+    set_hubs_aside(q, order);
     memcpy(q->list, neighbour, (size_t)q->start[q->n] * sizeof(int32_t));
     for (uint32_t i = 0; i < q->n; i++) {
-        q->length[i] = q->degree[i] = (uint32_t)(q->start[i + 1] - q->start[i]);
-        rise(q, i, i);
+        q->parent[i] = DMB_NONE;
+        if (q->place[i] == DMB_NONE) continue;
+        q->degree[i] = 0;
+        for (int32_t k = q->start[i]; k < q->start[i + 1]; k++) q->degree[i] += q->place[neighbour[k]] != DMB_NONE;
+        rise(q, q->left++, i);
     }
-    q->left = q->n;
+    return q->left;
 }
 
-int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int32_t *start, const int32_t *neighbour,
-                           uint32_t *order)
+int32_t dmb_elimination_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
+                              const int32_t *neighbour, uint32_t *order)
 {
     quotient q = {.n = n, .start = start, .nodes = dmb_vector_of(sizeof(uint32_t))};
     dmb_arena arena;
-    int32_t status = DMB_OK;
     dmb_arena_count(&arena);
     lay_out(&arena, &q);
     const size_t size = dmb_arena_block_size(&arena);
@@ -197,11 +268,9 @@ int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, block, size);
     lay_out(&arena, &q);
-    begin(&q, neighbour);
-    for (uint32_t k = 0; k < n && status >= 0; k++) {
-        order[k] = remove_least(&q);
-        status = eliminate(&q, allocator, order[k]);
-    }
+    const uint32_t count = begin(&q, neighbour, order);
+    const int32_t status = eliminate_all(&q, allocator, order);
+    if (status >= 0) postorder(&q, count, order);
     dmb_vector_release(&q.nodes, allocator);
     dmb_release(allocator, block, size);
     return status;
