@@ -67,32 +67,13 @@ void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const do
 
 /* ---- Sections inside the element --------------------------------------------------------------------------------- */
 
-/* One bending plane. P = 12 EI/(GA L^2), q = 1/(1+P): N3 - x = (3x^2 - 2x^3 - x) q, G3 = 6 (x - x^2) q/L */
-static void plane(double x, double bending_stiffness, double shear_stiffness, double length, double *move, double *turn)
-{
-    const double P = 12.0 * bending_stiffness / (shear_stiffness * length * length), q = 1.0 / (1.0 + P);
-    *move = x * ((3.0 - 2.0 * x) * x - 1.0) * q;
-    *turn = 6.0 * x * (1.0 - x) * q / length;
-}
-
 void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape)
 {
-    const double *K = type->strain_stiffness;
-    shape->x = x;
-    shape->move[0] = shape->move[1] = shape->turn[0] = shape->turn[1] = 0.0;
-    if (!bending) return;
-    plane(x, K[5], K[1], type->length, &shape->move[0], &shape->turn[0]);
-    plane(x, K[4], K[2], type->length, &shape->move[1], &shape->turn[1]);
-}
-
-/* A slope dz/dx is a rotation -theta_y. */
-void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6])
-{
-    out[0] = out[3] = 0.0;
-    out[1] = shape->move[0] * d[1];
-    out[2] = shape->move[1] * d[2];
-    out[4] = -shape->turn[1] * d[2];
-    out[5] = shape->turn[0] * d[1];
+    dmb_section_constants c;
+    dmb_section_load_constants(type, 0, &c);
+    const dmb_section_shape straight = {.x = x};
+    *shape = straight;
+    if (bending) dmb_section_shape_of(&c, x, shape);
 }
 
 void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
@@ -139,16 +120,6 @@ void dmb_section_strain_map(const dmb_element_type *type, const double d[6], dou
     }
 }
 
-/* V <- Ad^-1(exp h) V + T6(h) h' */
-static void follow_exp(const double R[9], const double x[3], const dmb_se3_tangent *T, const double rate[6],
-                       double v[6])
-{
-    double own[6];
-    dmb_se3_tangent_apply(T, rate, own);
-    dmb_adjoint_inverse_apply(R, x, v, v);
-    for (int i = 0; i < 6; i++) v[i] += own[i];
-}
-
 /* Velocity of the section: that of end A, propagated along the two exponentials of H(x) (eq:motion.section-map). */
 void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72])
 {
@@ -167,9 +138,9 @@ void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shap
         dmb_arm_velocity(type->arm[0], v);
         for (int i = 0; i < 6; i++) rate[i] = strain[12 * i + k];
         for (int i = 0; i < 6; i++) part[i] = shape->x * rate[i];
-        follow_exp(R[0], x[0], &T[0], part, v);
+        dmb_section_follow(R[0], x[0], &T[0], part, v);
         dmb_section_shape_correct(shape, rate, part);
-        follow_exp(R[1], x[1], &T[1], part, v);
+        dmb_section_follow(R[1], x[1], &T[1], part, v);
         for (int i = 0; i < 6; i++) map[12 * i + k] = v[i];
     }
 }
@@ -199,127 +170,4 @@ void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_sha
     for (int r = 0; r < 12; r++)
         for (int c = 0; c < 6; c++)
             for (int k = 0; k < 12; k++) K[12 * r + k] += by_d[r][c] * strain[12 * c + k];
-}
-
-/* ---- Twists and wrenches without the whole map ------------------------------------------------------------------ */
-
-static void exp_and_tangent(const double h[6], double R[9], double x[3], dmb_se3_tangent *T)
-{
-    const dmb_so3_coefficients k = dmb_so3_coefficients_or(h + 3, NULL);
-    dmb_se3_exp(h, &k, R, x);
-    dmb_se3_tangent_at(h, &k, T);
-}
-
-void dmb_section_frame_at(const dmb_section_shape *shape, const double d[6], dmb_section_frame *frame)
-{
-    double h[6], c[6];
-    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
-    dmb_section_shape_correct(shape, d, c);
-    exp_and_tangent(h, frame->R[0], frame->x[0], &frame->T[0]);
-    exp_and_tangent(c, frame->R[1], frame->x[1], &frame->T[1]);
-    dmb_se3_inverse_tangent_at(d, NULL, &frame->S);
-}
-
-void dmb_section_twist(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
-                       const double v[12], double V[6])
-{
-    double far[6], near_rate[6], rate[6], part[6];
-    dmb_vec6_copy(v, V);
-    dmb_vec6_copy(v + 6, far);
-    dmb_arm_velocity(type->arm[0], V);
-    dmb_arm_velocity(-type->arm[1], far);
-    dmb_se3_tangent_apply(&frame->S, far, rate);
-    dmb_se3_tangent_apply_reverse(&frame->S, V, near_rate);
-    for (int i = 0; i < 6; i++) rate[i] -= near_rate[i];
-    for (int i = 0; i < 6; i++) part[i] = shape->x * rate[i];
-    follow_exp(frame->R[0], frame->x[0], &frame->T[0], part, V);
-    dmb_section_shape_correct(shape, rate, part);
-    follow_exp(frame->R[1], frame->x[1], &frame->T[1], part, V);
-}
-
-/* w <- Ad^-T(exp h) w: (R f; R m + x x R f) */
-static void pull_wrench(const double R[9], const double x[3], const double w[6], double out[6])
-{
-    double moment[3];
-    dmb_mat3_vec(R, w, out);
-    dmb_mat3_vec(R, w + 3, out + 3);
-    dmb_vec3_cross(x, out, moment);
-    dmb_vec3_add(out + 3, moment, out + 3);
-}
-
-/* out += the transpose of dmb_section_shape_correct */
-static void add_shape_transpose(const dmb_section_shape *shape, const double s[6], double out[6])
-{
-    out[1] += shape->move[0] * s[1] + shape->turn[0] * s[5];
-    out[2] += shape->move[1] * s[2] - shape->turn[1] * s[4];
-}
-
-void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
-                        const double w[6], double f[12])
-{
-    double at_chord[6], stress[6], part[6];
-    pull_wrench(frame->R[1], frame->x[1], w, at_chord);
-    dmb_se3_tangent_apply_transpose(&frame->T[0], at_chord, stress);
-    for (int i = 0; i < 6; i++) stress[i] *= shape->x;
-    dmb_se3_tangent_apply_transpose(&frame->T[1], w, part);
-    add_shape_transpose(shape, part, stress);
-    pull_wrench(frame->R[0], frame->x[0], at_chord, f);
-    dmb_se3_tangent_apply_reverse_transpose(&frame->S, stress, part);
-    for (int i = 0; i < 6; i++) f[i] -= part[i];
-    dmb_se3_tangent_apply_transpose(&frame->S, stress, f + 6);
-    dmb_arm_wrench(type->arm[0], f);
-    dmb_arm_wrench(-type->arm[1], f + 6);
-}
-
-#define DMB_SECTION_SMALL \
-    3e-5 /* [rad; element lengths] step of second-order differences: errors of 1e-11 of the map and of rounding */
-
-/* Frame for d displaced along component c. The correction c(x) d depends on d_y and d_z only. */
-static void frame_beside(const dmb_section_shape *shape, const double d[6], int c, const dmb_section_frame *at,
-                         dmb_section_frame *frame)
-{
-    double h[6], bent[6];
-    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
-    exp_and_tangent(h, frame->R[0], frame->x[0], &frame->T[0]);
-    dmb_se3_inverse_tangent_at(d, NULL, &frame->S);
-    if (c == 1 || c == 2) {
-        dmb_section_shape_correct(shape, d, bent);
-        exp_and_tangent(bent, frame->R[1], frame->x[1], &frame->T[1]);
-        return;
-    }
-    memcpy(frame->R[1], at->R[1], sizeof at->R[1]);
-    memcpy(frame->x[1], at->x[1], sizeof at->x[1]);
-    frame->T[1] = at->T[1];
-}
-
-/* Both depend on d only: differences along each of its six components, multiplied by the strain map. */
-void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *at,
-                             const double d[6], const double w[6], const double v[12], double K[144], double W[72])
-{
-    double strain[72], force[6][12], twist[6][6];
-    dmb_section_strain_map(type, d, strain);
-    for (int c = 0; c < 6; c++) {
-        const double step = DMB_SECTION_SMALL * (c < 3 ? type->length : 1.0);
-        double f[2][12], V[2][6];
-        for (int side = 0; side < 2; side++) {
-            dmb_section_frame frame;
-            double moved[6];
-            dmb_vec6_copy(d, moved);
-            moved[c] += side ? step : -step;
-            frame_beside(shape, moved, c, at, &frame);
-            dmb_section_wrench(type, shape, &frame, w, f[side]);
-            dmb_section_twist(type, shape, &frame, v, V[side]);
-        }
-        for (int r = 0; r < 12; r++) force[c][r] = (f[1][r] - f[0][r]) / (2.0 * step);
-        for (int i = 0; i < 6; i++) twist[c][i] = (V[1][i] - V[0][i]) / (2.0 * step);
-    }
-    memset(K, 0, 144 * sizeof *K);
-    memset(W, 0, 72 * sizeof *W);
-    for (int c = 0; c < 6; c++) {
-        const double *row = strain + 12 * c;
-        for (int r = 0; r < 12; r++)
-            for (int k = 0; k < 12; k++) K[12 * r + k] += force[c][r] * row[k];
-        for (int i = 0; i < 6; i++)
-            for (int k = 0; k < 12; k++) W[12 * i + k] += twist[c][i] * row[k];
-    }
 }

@@ -4,6 +4,7 @@
 
 #include "element/beam_math.h"
 #include "element/element_type.h"
+#include "element/section_math.h"
 
 /* Computes the shape from the orientations of the nodes, node A's rotation matrix and the vector from node A to node B
  * [m], world frame. Returns 0, or -1 if the relative rotation is above DMB_BEAM_ROTATION_MAX or not a number. */
@@ -21,20 +22,10 @@ double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */
 void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6], double pb[6]);
 
-/* The shapes of bending are added to the helix inside an element: H(x) = exp(x d) exp(c(x) d), see
- * query/motion.c (eq:beam.section-pose). */
-
-typedef struct dmb_section_shape {
-    double x;       /* [-] fraction of the flexible length */
-    double move[2]; /* [-] lateral displacement per unit of d_y, d_z: N3 - x */
-    double turn[2]; /* [rad/m] rotation of the section per unit of d_y, d_z: G3 */
-} dmb_section_shape;
+/* Sections inside the element (element/section_math.h). */
 
 /* Computes the shape at fraction x; bending 0 omits c (axial-torsional elements). */
 void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape);
-
-/* out = c(x) d. Linear in d, so that it also applies to rates. */
-void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6]);
 
 /* Pose of a section relative to the element's nodes, and its twist as a function of theirs, for forces that act inside
  * an element. R_a, R_b: axes of the nodes in the world; span: from node a to node b, world. */
@@ -53,24 +44,5 @@ void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shap
  * axes of the section. */
 void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
                              const double w[6], double K[144]);
-
-/* Parts of the map at d, for twists and wrenches without computing the whole map. */
-typedef struct dmb_section_frame {
-    double R[2][9], x[2][3]; /* exponentials of x d and of c(x) d */
-    dmb_se3_tangent T[2];    /* their tangents */
-    dmb_se3_inverse_tangent S;
-} dmb_section_frame;
-
-void dmb_section_frame_at(const dmb_section_shape *shape, const double d[6], dmb_section_frame *frame);
-/* V = map v, and f = map^T w. */
-void dmb_section_twist(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
-                       const double v[12], double V[6]);
-void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
-                        const double w[6], double f[12]);
-/* Changes by body-frame displacements of the nodes: K, shape (12, 12), of map^T w, and W, shape (6, 12), of map v, at
- * constant w and v. */
-void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape,
-                             const dmb_section_frame *frame, const double d[6], const double w[6], const double v[12],
-                             double K[144], double W[72]);
 
 #endif

@@ -165,6 +165,22 @@ typedef struct dmb_wall_args {
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
 } dmb_wall_args;
 
+/* Contact points inside elements: the near nodes are those of dmb_wall_args. Pointers are to the scene's first element,
+ * node, row or block, or to the first contact point's fraction. */
+typedef struct dmb_inside_args {
+    const double *fraction; /* [-] of the flexible length, of each contact point, `stride` numbers apart */
+    uint32_t stride;
+    int32_t inertia_only; /* as in dmb_evaluation */
+    const dmb_element_type *types;
+    const uint32_t *element_type; /* of each element */
+    const uint32_t *node_element; /* element between a node and the next */
+    const double *span;           /* [m] at time 0, world frame, shape (elements, 3) */
+    const double *now_displacement;
+    const double *increment; /* [m, rad] of the step */
+    const uint32_t *link;    /* start of the off-diagonal blocks between a node and the next */
+    double *upper, *lower;   /* off-diagonal blocks, added to */
+} dmb_inside_args;
+
 static inline void dmb_site_fields_skip(const dmb_wall_args *args, uint32_t count, dmb_site_fields *fields)
 {
     fields->normal += 3 * (size_t)count;
@@ -318,6 +334,8 @@ typedef struct dmb_kernels {
     void (*node_forces)(dmb_node_force_args *args);
     /* Forces of touching contact points and, if requested, tangent blocks; contact fields of the trial. */
     void (*walls)(dmb_wall_args *args);
+    /* The same inside elements whose nodes are six-DOF. */
+    void (*walls_inside)(dmb_wall_args *args, const dmb_inside_args *inside);
     void (*responses)(dmb_response_args *args);
 } dmb_kernels;
 

@@ -8,6 +8,7 @@
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_response.h"
 #include "kernel/lanes_wall.h"
+#include "kernel/lanes_wall_inside.h"
 #include "math/block_inverse.h"
 
 /* ---- Beams ------------------------------------------------------------------------------------------------------- */
@@ -348,6 +349,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,
                                  .walls = walls,
+                                 .walls_inside = walls_inside,
                                  .advance = advance,
                                  .turns = turns,
                                  .twist = twist,

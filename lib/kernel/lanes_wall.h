@@ -38,7 +38,11 @@ typedef struct wall_group {
     uint32_t touching; /* bit mask of the lanes in contact, without lanes that repeat the last contact point */
     uint32_t sticking; /* bit mask of those that stick (bristle law) */
     lane_group site;
+    const struct wall_section *inside; /* of contact points inside elements; NULL: they are on nodes */
 } wall_group;
+
+/* Velocity of the contact points at the last accepted state, in world axes; in kernel/lanes_wall_inside.h. */
+static inline void section_velocity_before(const dmb_wall_args *args, const wall_group *g, dmb_real V[3]);
 
 /* In a hole with sections the wall's constants depend on the measured depth of the contact point. */
 static inline int has_sections(const dmb_wall_args *args)
@@ -135,7 +139,7 @@ static inline void project_line(const dmb_wall_args *args, wall_group *g, dmb_re
     for (uint32_t l = 0; l < g->site.used; l++) args->trial.segment[place_at(&g->site, (uint32_t)l)] = 0;
 }
 
-static inline void locate(const dmb_wall_args *args, wall_group *g)
+DMB_LANES_INLINE void locate(const dmb_wall_args *args, wall_group *g)
 {
     dmb_real point[3], last[3];
     if (dmb_hole_is_straight(args->hole))
@@ -148,16 +152,25 @@ static inline void locate(const dmb_wall_args *args, wall_group *g)
     store(g->normal, 3, &g->site, args->trial.normal);
 }
 
+static inline void node_velocity_before(const dmb_wall_args *args, const wall_group *g, dmb_real V[3])
+{
+    dmb_real q[4], R[9], v[6];
+    load_at(args->now_velocity, 1, 6, &g->row, v);
+    load_at(args->now_quaternion, 4, 4, &g->node, q);
+    dmb_arm_velocity(g->offset, v);
+    dmb_quat_to_matrix(q, R);
+    dmb_mat3_vec(R, v, V);
+}
+
 /* [m/s] Speed of the contact points at the last accepted state, along the present normal: the point may have crossed
  * the axis since. */
 static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group *g)
 {
-    dmb_real q[4], R[9], V[6];
-    load_at(args->now_velocity, 1, 6, &g->row, V);
-    load_at(args->now_quaternion, 4, 4, &g->node, q);
-    dmb_arm_velocity(g->offset, V);
-    dmb_quat_to_matrix(q, R);
-    dmb_mat3_vec(R, V, V);
+    dmb_real V[3];
+    if (g->inside != NULL)
+        section_velocity_before(args, g, V);
+    else
+        node_velocity_before(args, g, V);
     if (has_sections(args)) return dmb_vec3_dot(g->normal, V) - g->section.rho * dmb_vec3_dot(g->tangent, V);
     return dmb_vec3_dot(g->normal, V);
 }
@@ -165,7 +178,7 @@ static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group 
 /* Impact speed v0 of the restitution laws: the normal speed at the last accepted state before contact. Without contact
  * the field holds the present normal speed. A contact point that opens and closes within one step has the speed of its
  * separation. */
-static inline void set_impact_speed(const dmb_wall_args *args, wall_group *g)
+DMB_LANES_INLINE void set_impact_speed(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
     const dmb_real back = args->own_factor > 0.0 ? load_line(args->site_history, &g->site) : zero;
@@ -217,11 +230,9 @@ static inline void read_laws(const dmb_wall_args *args, const wall_laws *laws, w
     g->friction_law = &g->section.friction;
 }
 
-/* Position, normal, penetration and speeds of the contact points, written to the trial configuration. */
-static inline void place_sites(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
+/* Normal, penetration and speeds of the contact points, written to the trial configuration. */
+DMB_LANES_INLINE void place_sites(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
-    load_sites(args, g);
-    load_motion(args, g);
     locate(args, g);
     dmb_contact_frame_at(g->R, g->normal, g->tangent, &g->frame);
     if (args->dynamic)
@@ -317,19 +328,34 @@ static inline void subtract_blocks(const dmb_wall_args *args, const wall_group *
     add_lanes(K, 36, touching, to);
 }
 
+/* d wrench/d pose of the contact points, in their body axes. */
+static inline void find_pose_tangent(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
+                                     const dmb_real wrench[6], dmb_real K[36])
+{
+    const int friction = args->friction_law != NULL;
+    const dmb_real *bend = dmb_hole_is_straight(args->hole) ? NULL : g->bend;
+    dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
+    if (bend != NULL) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
+    if (has_sections(args)) dmb_section_pose_tangent(&g->frame, c, &g->section, bend, friction, K);
+}
+
+/* The same by velocity, times a factor. */
+static inline void find_velocity_tangent(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
+                                         double factor, dmb_real K[36])
+{
+    const int friction = args->friction_law != NULL;
+    dmb_contact_velocity_tangent(&g->frame, c, factor, friction, K);
+    if (has_sections(args)) dmb_section_velocity_tangent(&g->frame, c, &g->section, factor, friction, K);
+}
+
 static inline void add_tangent(const dmb_wall_args *args, const wall_group *g, uint32_t touching, int arms,
                                const dmb_contact_force *c, const dmb_real wrench[6])
 {
-    const int friction = args->friction_law != NULL;
     dmb_real K[36];
-    dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
-    if (!dmb_hole_is_straight(args->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
-    const dmb_real *bend = dmb_hole_is_straight(args->hole) ? NULL : g->bend;
-    if (has_sections(args)) dmb_section_pose_tangent(&g->frame, c, &g->section, bend, friction, K);
+    find_pose_tangent(args, g, c, wrench, K);
     subtract_blocks(args, g, touching, arms, K, args->stiffness);
     if (!args->dynamic) return;
-    dmb_contact_velocity_tangent(&g->frame, c, args->velocity_factor, friction, K);
-    if (has_sections(args)) dmb_section_velocity_tangent(&g->frame, c, &g->section, args->velocity_factor, friction, K);
+    find_velocity_tangent(args, g, c, args->velocity_factor, K);
     subtract_blocks(args, g, touching, arms, K, args->inertia);
 }
 
@@ -344,7 +370,7 @@ static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
 }
 
 /* Adds the wrench of each contact point to the rows of its node. Adding -0.0 is exact. */
-static inline void add_rows(const wall_group *g, const dmb_real x[6], double *rows)
+DMB_LANES_INLINE void add_rows(const wall_group *g, const dmb_real x[6], double *rows)
 {
     const dmb_real nothing = dmb_real_of(-0.0);
     dmb_real sum[6];
@@ -377,10 +403,8 @@ static inline void set_own_powers(const dmb_wall_args *args, const wall_group *g
     power[2] = dmb_real_select(g->own, rubs, power[2]);
 }
 
-static inline void add_forces(dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
-                              const dmb_real wrench[6])
+static inline void add_forces(const dmb_wall_args *args, const wall_group *g, const dmb_real wrench[6])
 {
-    const dmb_real *v = g->frame.speed;
     dmb_real force[6], magnitude[6];
     for (int i = 0; i < 6; i++) {
         force[i] = -wrench[i];
@@ -388,6 +412,11 @@ static inline void add_forces(dmb_wall_args *args, const wall_group *g, const dm
     }
     add_rows(g, force, args->residual);
     add_rows(g, magnitude, args->scale);
+}
+
+static inline void add_wall_powers(dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c)
+{
+    const dmb_real *v = g->frame.speed;
     add_touching(rounding_of(g, c->by_depth[0]), g, &args->rounding);
     if (!args->dynamic) return;
     dmb_real power[3] = {-(c->elastic * v[0]), (c->F[0] + c->elastic) * v[0], c->F[1] * v[1] + c->F[2] * v[2]};
@@ -544,7 +573,7 @@ static inline void keep_touch(const dmb_wall_args *args, wall_group *g)
 }
 
 /* Normal force, its damping weighted where that jumps at touch. */
-static inline void press_normally(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
+DMB_LANES_INLINE void press_normally(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     const dmb_local_normal *law = g->normal_law;
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
@@ -562,23 +591,49 @@ static inline void press_normally(const dmb_wall_args *args, wall_group *g, dmb_
     if (dmb_mask_any(g->own)) set_mean_force(args, g, c);
 }
 
-static inline void press(dmb_wall_args *args, wall_group *g)
+/* Contact forces and their wrench in body axes. */
+DMB_LANES_INLINE void find_force(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c, dmb_real wrench[6])
 {
     const int friction = args->friction_law != NULL;
+    c->F[1] = c->F[2] = dmb_real_of(0.0);
+    press_normally(args, g, c);
+    if (friction) add_friction(args, g, c);
+    if (args->bounces) keep_presses(args, g, -c->F[0]);
+    dmb_contact_wrench(&g->frame, c, friction, wrench);
+    if (has_sections(args)) press_section(args, g, c, wrench);
+    if (dmb_mask_any(g->own)) subtract_history(args, g, c, wrench);
+}
+
+static inline void press(dmb_wall_args *args, wall_group *g)
+{
     const int arms =
         dmb_mask_any(dmb_mask_less(g->offset, dmb_real_of(0.0)) | dmb_mask_less(dmb_real_of(0.0), g->offset));
     dmb_contact_force c;
     dmb_real wrench[6];
-    c.F[1] = c.F[2] = dmb_real_of(0.0);
-    press_normally(args, g, &c);
-    if (friction) add_friction(args, g, &c);
-    if (args->bounces) keep_presses(args, g, -c.F[0]);
-    dmb_contact_wrench(&g->frame, &c, friction, wrench);
-    if (has_sections(args)) press_section(args, g, &c, wrench);
-    if (dmb_mask_any(g->own)) subtract_history(args, g, &c, wrench);
+    find_force(args, g, &c, wrench);
     if (args->tangent) add_tangent(args, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
-    add_forces(args, g, &c, wrench);
+    add_forces(args, g, wrench);
+    add_wall_powers(args, g, &c);
+}
+
+/* Contact points that touch. */
+DMB_LANES_INLINE void find_touching(const dmb_wall_args *args, wall_group *g)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    g->own = dmb_mask_less(zero, zero);
+    if (args->bounces) g->own = with_mean_force(args, g);
+    g->touches = dmb_mask_less(zero, g->penetration) | dmb_mask_at_most(g->clearance, zero) | g->own;
+    g->touching = dmb_mask_bits(g->touches) & lanes_used(&g->site);
+    if (args->bristles) begin_bristles(args, g);
+    if (g->touching == 0 && args->bounces) keep_presses(args, g, zero);
+}
+
+/* Bristles and touch history, which the next step reads. */
+static inline void keep_memory(const dmb_wall_args *args, wall_group *g)
+{
+    if (args->bristles) keep_bristles(args, g);
+    if (args->touches) keep_touch(args, g);
 }
 
 static void walls(dmb_wall_args *args)
@@ -587,19 +642,13 @@ static void walls(dmb_wall_args *args)
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         wall_group g;
         g.site = group_at(first, args->count);
+        g.inside = NULL;
+        load_sites(args, &g);
+        load_motion(args, &g);
         place_sites(args, &laws, &g);
-        const dmb_real zero = dmb_real_of(0.0);
-        g.own = dmb_mask_less(zero, zero);
-        if (args->bounces) g.own = with_mean_force(args, &g);
-        g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero) | g.own;
-        g.touching = dmb_mask_bits(g.touches) & lanes_used(&g.site);
-        if (args->bristles) begin_bristles(args, &g);
-        if (g.touching)
-            press(args, &g);
-        else if (args->bounces)
-            keep_presses(args, &g, zero);
-        if (args->bristles) keep_bristles(args, &g);
-        if (args->touches) keep_touch(args, &g);
+        find_touching(args, &g);
+        if (g.touching) press(args, &g);
+        keep_memory(args, &g);
     }
 }
 

@@ -86,7 +86,7 @@ static void add_point(const host *h, double fraction, const double w[6], point_l
     double f[12];
     dmb_section_shape_at(h->type, fraction, h->bending, &shape);
     dmb_section_frame_at(&shape, h->d, &frame);
-    dmb_section_wrench(h->type, &shape, &frame, w, f);
+    dmb_section_wrench(h->type->arm, &shape, &frame, w, f);
     for (int i = 0; i < 12; i++) loads->nodes[i] += f[i];
     frame_at(h, fraction, &at);
     add_moved(&at, w, 1.0, h->b.r, loads->all);

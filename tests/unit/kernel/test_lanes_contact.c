@@ -1,12 +1,23 @@
 /* Contact kernels: every width gives the bits of one lane, whichever rings share a group, and rings that do not touch
- * leave no trace. Equations: eq:contact.frame. */
+ * leave no trace; so do contact points inside elements. Equations: eq:contact.frame, eq:contact.inside. */
 #include <string.h>
 
 #include "check.h"
 #include "kernel/kernels.h"
 #include "math/so3.h"
 
-enum { NODES = 9, SITES = 21, ROWS = 6 * NODES, BLOCKS = 36 * NODES, STATIONS = 4, PIECES = 4, SEEDS = 6 };
+enum {
+    NODES = 9,
+    SITES = 21,
+    ROWS = 6 * NODES,
+    BLOCKS = 36 * NODES,
+    STATIONS = 4,
+    PIECES = 4,
+    SEEDS = 6,
+    ELEMENTS = NODES - 1,
+    LINKS = 36 * ELEMENTS,
+    TYPES = 3
+};
 
 /* Inputs and outputs of a run (outputs are compared byte by byte). */
 typedef struct wall_input {
@@ -24,12 +35,15 @@ typedef struct wall_input {
     uint32_t segment[SITES];
     int32_t sticks[SITES];
     uint8_t mode[SITES], coarse[SITES];
+    dmb_element_type types[TYPES]; /* of elements with contact points inside, and: */
+    uint32_t element_type[ELEMENTS], node_element[NODES], link[ELEMENTS];
+    double fraction[2 * SITES], span[3 * ELEMENTS], now_displacement[3 * NODES], increment[ROWS];
 } wall_input;
 
 typedef struct wall_output {
     double normal[3 * SITES], depth[SITES], penetration[SITES], impact_speed[SITES], slip[2 * SITES],
         bristle[2 * SITES], touch[DMB_TOUCH_SIZE * SITES];
-    double residual[ROWS], scale[ROWS], stiffness[BLOCKS], inertia[BLOCKS];
+    double residual[ROWS], scale[ROWS], stiffness[BLOCKS], inertia[BLOCKS], upper[LINKS], lower[LINKS];
     double sums[4];
     uint32_t segment[SITES];
     int32_t sticks[SITES], reserved;
@@ -42,6 +56,7 @@ typedef struct wall_case {
     int32_t sections; /* 1: a hole of sections, and rings that keep their touch */
     double exponent;
     int32_t bounces; /* 0: rings have no mean forces; 1: they have; 2: in the first evaluation of a step */
+    int32_t inside;  /* 1: contact points are inside elements */
 } wall_case;
 
 /* ---- Random configurations --------------------------------------------------------------------------------------- */
@@ -60,21 +75,21 @@ static void draw_quaternion(uint64_t *seed, double q[4])
 }
 
 /* Near the identity, as pipes in a hole along x are. */
-static void draw_pose(uint64_t *seed, double q[4])
+static void draw_pose(uint64_t *seed, double tilt, double q[4])
 {
-    const double a = draw_between(seed, -3.0, 3.0), b = draw_between(seed, -0.1, 0.1);
+    const double a = draw_between(seed, -3.0, 3.0), b = draw_between(seed, -tilt, tilt);
     const double turned[9] = {cos(b),          -sin(b),         0.0,   cos(a) * sin(b), cos(a) * cos(b), -sin(a),
                               sin(a) * sin(b), sin(a) * cos(b), cos(a)};
     dmb_quat_from_matrix(turned, q);
 }
 
-static void draw_nodes(uint64_t *seed, wall_input *in)
+static void draw_nodes(uint64_t *seed, double tilt, wall_input *in)
 {
     for (uint32_t i = 0; i < NODES; i++) {
         in->row[i] = 6 * i;
         in->diagonal[i] = 36 * i;
         in->reference[3 * i] = 5.0 * i;
-        draw_pose(seed, in->quaternion + 4 * i);
+        draw_pose(seed, tilt, in->quaternion + 4 * i);
         draw_quaternion(seed, in->now_quaternion + 4 * i);
     }
     draw_all(seed, -0.02, 0.02, 3 * NODES, in->displacement);
@@ -175,15 +190,43 @@ static void draw_bounces(wall_input *in)
     }
 }
 
+/* Elements of three types between the nodes, with up to four contact points inside; those of the seventh are open. */
+static void draw_elements(uint64_t *seed, wall_input *in)
+{
+    for (uint32_t i = 0; i < TYPES; i++) {
+        const dmb_element_type type = {.length = 4.7 + 0.1 * i,
+                                       .strain_stiffness = {3e8, 1e8, 0.9e8, 1e5, 1.3e5, 1.2e5},
+                                       .arm = {i > 0 ? 0.1 : 0.0, i > 1 ? 0.2 : 0.0}};
+        in->types[i] = type;
+    }
+    for (uint32_t e = 0; e < ELEMENTS; e++) {
+        in->element_type[e] = e / 3;
+        in->node_element[e] = e;
+        in->link[e] = 36 * e;
+        in->span[3 * e] = 5.0;
+    }
+    for (uint32_t s = 0; s < SITES; s++) {
+        dmb_site *site = in->sites + s;
+        site->node = s % 7;
+        if (site->node == 6) site->clearance = 3.0;
+        in->fraction[2 * s] = draw_between(seed, 0.05, 0.95);
+    }
+    draw_all(seed, -1e-3, 1e-3, ROWS, in->increment);
+    for (uint32_t i = 0; i < NODES; i++) draw_pose(seed, 0.004, in->now_quaternion + 4 * i);
+}
+
 static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
 {
     memset(in, 0, sizeof *in);
     setup_laws(c, in);
     setup_hole(c, in);
-    draw_nodes(seed, in);
+    draw_nodes(seed, c->inside ? 0.004 : 0.1, in);
     draw_sites(seed, *seed % 2 == 0, in);
+    if (c->inside) draw_elements(seed, in);
     if (c->sections) draw_pieces(seed, in);
     if (c->bounces) draw_bounces(in);
+    for (uint32_t s = 6; s < SITES && c->inside; s += 7) in->mode[s] = 0;
+    for (uint32_t s = 6; s < SITES && c->inside && c->sections; s += 7) in->sites[s].radius = -3.0;
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
@@ -251,7 +294,21 @@ static void run_part(const dmb_kernels *kernels, const wall_case *c, wall_input 
                      uint32_t count)
 {
     dmb_wall_args args = run_of(c, in, out, first, count);
-    kernels->walls(&args);
+    const dmb_inside_args inside = {.fraction = in->fraction + 2 * first,
+                                    .stride = 2,
+                                    .types = in->types,
+                                    .element_type = in->element_type,
+                                    .node_element = in->node_element,
+                                    .span = in->span,
+                                    .now_displacement = in->now_displacement,
+                                    .increment = in->increment,
+                                    .link = in->link,
+                                    .upper = out->upper,
+                                    .lower = out->lower};
+    if (c->inside)
+        kernels->walls_inside(&args, &inside);
+    else
+        kernels->walls(&args);
     out->sums[0] = args.rounding;
     out->sums[1] = args.potential;
     out->sums[2] = args.impact;
@@ -306,7 +363,8 @@ static void all_widths_give_the_same_bits(void **state)
     (void)state;
     for (int32_t i = 0; i < 6 * 5 * 16 * SEEDS; i++) {
         const int32_t k = i / 30;
-        const wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, k / 2 % 2, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 0};
+        const wall_case c = {i % 6,     i / 6 % 5 - 1,          k % 2, k / 2 % 2, k / 4 % 2,
+                             k / 8 % 2, exponents[(i + k) % 3], 0,     0};
         draw_input(&seed, &c, &in);
         closed += compare_widths(&c, &in);
         cases++;
@@ -329,7 +387,7 @@ static void mean_forces_have_the_same_bits(void **state)
     (void)state;
     for (int32_t i = 0; i < 6 * 5 * 16 * SEEDS; i++) {
         const int32_t k = i / 30;
-        wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, 1, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 1 + k / 2 % 2};
+        wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, 1, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 1 + k / 2 % 2, 0};
         draw_input(&seed, &c, &in);
         (void)compare_widths(&c, &in);
         clear(&mean);
@@ -342,6 +400,33 @@ static void mean_forces_have_the_same_bits(void **state)
     }
 }
 
+/* The same inside elements: uniform and curved holes, sections, friction laws, mean forces, several types of elements.
+ */
+static void points_inside_elements_have_the_same_bits(void **state)
+{
+    static const double exponents[3] = {1.0, 1.5, 1.3};
+    uint64_t seed = 80;
+    uint32_t closed = 0, cases = 0;
+    double coupled = 0.0;
+    wall_input in;
+    wall_output out;
+    (void)state;
+    for (int32_t i = 0; i < 6 * 5 * 16 * SEEDS; i++) {
+        const int32_t k = i / 30;
+        wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, k / 2 % 2, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 0, 1};
+        if (c.dynamic && i % 2) c.bounces = 1 + i / 2 % 2;
+        draw_input(&seed, &c, &in);
+        closed += compare_widths(&c, &in);
+        cases++;
+        clear(&out);
+        run_part(dmb_kernels_widest(), &c, &in, &out, 0, SITES);
+        if (c.tangent) coupled = fmax(coupled, largest(LINKS, out.upper));
+        if (!c.tangent) assert_true(largest(LINKS, out.upper) == 0.0 && largest(LINKS, out.lower) == 0.0);
+    }
+    tell("contact points that touch, of all [-]", closed / ((double)cases * SITES));
+    assert_true(closed > cases * SITES / 5 && closed < cases * SITES * 4 / 5 && coupled > 1.0);
+}
+
 /* The residual is the same whether blocks are wanted or not. */
 static void forces_do_not_depend_on_the_tangent(void **state)
 {
@@ -350,7 +435,7 @@ static void forces_do_not_depend_on_the_tangent(void **state)
     wall_output with, without;
     (void)state;
     for (int32_t i = 0; i < 60; i++) {
-        wall_case c = {i % 6, i % 5 - 1, 0, i / 30, 1, i % 2, 1.0, i / 30 * (i % 3)};
+        wall_case c = {i % 6, i % 5 - 1, 0, i / 30, 1, i % 2, 1.0, i / 30 * (i % 3), 0};
         draw_input(&seed, &c, &in);
         clear(&with);
         clear(&without);
@@ -369,6 +454,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_widths_give_the_same_bits),
         cmocka_unit_test(mean_forces_have_the_same_bits),
+        cmocka_unit_test(points_inside_elements_have_the_same_bits),
         cmocka_unit_test(forces_do_not_depend_on_the_tangent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
