@@ -22,6 +22,13 @@ void dmb_stop_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end
     end->slope = k;
 }
 
+void dmb_joint_spring_end_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end)
+{
+    const double x = place - law->rest, k = law->stiffness;
+    const dmb_unilateral_end spring = {place, 0.0, 0.5 * k * x * x, k * x, k, 1, 0};
+    *end = spring;
+}
+
 int dmb_spring_can_open(const dmb_spring_law *law)
 {
     return law->acts != DMB_SPRING_BOTH || law->count > 0;

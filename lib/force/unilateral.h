@@ -50,6 +50,9 @@ typedef struct dmb_unilateral_mean {
 int dmb_stop_acts(const dmb_joint_law *law);
 void dmb_stop_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end);
 
+/* The spring of a joint's coordinate, which acts on both sides and is never open. */
+void dmb_joint_spring_end_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end);
+
 /* 1 if the elastic force of a spring may begin or end: one-sided, or by a table. */
 int dmb_spring_can_open(const dmb_spring_law *law);
 void dmb_spring_end_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation,

@@ -203,6 +203,7 @@ static void take_modes(companion *of)
     memcpy(of->sim->site_coarse, of->nominal->sim->site_coarse, of->sim->scene->site_count * sizeof(uint8_t));
     memcpy(of->sim->site_mode, of->nominal->sim->site_mode, of->sim->scene->site_count * sizeof(uint8_t));
     memcpy(of->sim->bounce_mode, of->nominal->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
+    memcpy(of->sim->bounce_turns, of->nominal->sim->bounce_turns, of->sim->scene->unilateral_count * sizeof(uint8_t));
 }
 
 /* Corrects the follower to its state before contacts opened, and computes the accelerations of the opening forces from

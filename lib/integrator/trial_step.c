@@ -203,13 +203,13 @@ static int32_t carry(dmb_sim *sim, const dmb_trial_step *trial_step)
 static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
-    opens |= dmb_bounces_open(sim);
+    opens |= dmb_bounces_open(sim, dmb_step_end_asked(&trial_step->end));
     const int32_t carries = carry(sim, trial_step);
     if (carries < 0) return carries;
     opens |= carries;
     for (int k = 0; k < DMB_RELEASES_MAX && opens && status == DMB_OK; k++) {
         status = step_released(sim, c, trial_step);
-        opens = dmb_bounces_open(sim);
+        opens = dmb_bounces_open(sim, dmb_step_end_asked(&trial_step->end));
     }
     return status;
 }

@@ -92,14 +92,19 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
     scene->cluster_column_count = cluster->column + cluster->columns;
 }
 
-/* Number of laws of joints and springs, numbered together if any of them may open. */
+/* Number of stops of joints, springs, and springs of joints, numbered together if any of them may have a mean force. */
 static uint32_t count_unilaterals(const dmb_mesh *mesh)
 {
     int any = 0;
-    for (uint32_t i = 0; i < mesh->laws.count; i++) any |= dmb_stop_acts(DMB_VECTOR_AT(dmb_joint_law, &mesh->laws, i));
-    for (uint32_t i = 0; i < mesh->springs.count; i++)
-        any |= dmb_spring_can_open(&DMB_VECTOR_AT(dmb_scene_spring, &mesh->springs, i)->law);
-    return any ? (uint32_t)(mesh->laws.count + mesh->springs.count) : 0;
+    for (uint32_t i = 0; i < mesh->laws.count; i++) {
+        const dmb_joint_law *law = DMB_VECTOR_AT(dmb_joint_law, &mesh->laws, i);
+        any |= dmb_stop_acts(law) || law->stiffness > 0.0;
+    }
+    for (uint32_t i = 0; i < mesh->springs.count; i++) {
+        const dmb_spring_law *law = &DMB_VECTOR_AT(dmb_scene_spring, &mesh->springs, i)->law;
+        any |= dmb_spring_can_open(law) || law->stiffness > 0.0;
+    }
+    return any ? (uint32_t)(2 * mesh->laws.count + mesh->springs.count) : 0;
 }
 
 static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)

@@ -210,6 +210,27 @@ static const dmb_rigid_mass *rigid_mass_on(const dmb_scene *scene, uint32_t node
     return low < scene->rigid_mass_count && scene->rigid_masses[low].node == node ? scene->rigid_masses + low : NULL;
 }
 
+/* Torsional inertia of the elements beside a node; of a node without elements the least moment of inertia. */
+static double inertia_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass *rigid)
+{
+    double inertia = 0.0;
+    for (uint32_t k = node == 0 ? 1 : 0; k < 2; ++k) {
+        const uint32_t e = scene->node_element[node - (k == 0)];
+        if (e != DMB_NONE) inertia += scene->types[scene->element_type[e]].mass.torsion[0];
+    }
+    if (inertia > 0.0 || rigid == NULL) return inertia;
+    return fmin(rigid->inertia[0], fmin(rigid->inertia[1], rigid->inertia[2]));
+}
+
+double dmb_node_mobility(const dmb_scene *scene, uint32_t node, double arm)
+{
+    const dmb_rigid_mass *rigid = rigid_mass_on(scene, node);
+    const double mass = mass_beside(scene, node) + (rigid != NULL ? rigid->mass : 0.0);
+    const double inertia = inertia_of(scene, node, rigid), of_turn = inertia > 0.0 ? 1.0 / inertia : 0.0;
+    if (isinf(arm)) return of_turn;
+    return (mass > 0.0 ? 1.0 / mass : 0.0) + arm * arm * of_turn;
+}
+
 /* 1/m, m being half of the elements beside the node and what is rigid on it; inside an element half of that. For bodies
  * plus a^2/J for their rotation, at the distance a from the node. */
 double dmb_site_mobility(const dmb_scene *scene, uint32_t s)

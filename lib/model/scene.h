@@ -236,7 +236,8 @@ typedef struct dmb_scene {
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count, rotor_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
-    uint32_t unilateral_count; /* laws of joints, then springs, where any of them may open; else 0 */
+    uint32_t unilateral_count; /* stops of laws of joints, then springs, then springs of laws; 0 where none may have a
+                                  mean force */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;                   /* rows of all constraints, unused ones included */
     uint32_t constraint_node_count;                  /* length of cluster_nodes */
@@ -395,6 +396,9 @@ static inline int32_t dmb_scene_has_touch(const dmb_scene *scene)
     return scene->normal_law.kind == DMB_NORMAL_KELVIN_VOIGT;
 }
 
+/* [1/kg, 1/(kg m2)] Bound of J M^-1 J^T of a force at the distance arm [m] from a node, from the adjacent mass;
+ * infinite: of a couple. Model/scene. */
+double dmb_node_mobility(const dmb_scene *scene, uint32_t node, double arm);
 /* [1/kg] J M^-1 J^T of the normal force of a contact point, from the adjacent mass: model/scene. */
 double dmb_site_mobility(const dmb_scene *scene, uint32_t site);
 

@@ -224,6 +224,8 @@ typedef struct dmb_drive_variables {
                                                    system/bounce_end, integrator/companion */                         \
     X(uint8_t, site_presses, s)                 /* 1: normal force > 0 in the trial: system/assemble/wall_contact */  \
     X(uint8_t, bounce_mode, u)                  /* DMB_BOUNCE_...: system/assemble/bounces, integrator/companion */   \
+    X(uint8_t, bounce_turns, u)                 /* 1: the step does not resolve the law, whose gradient turns:        \
+                                                   system/assemble/bounces_holding, integrator/companion */           \
     X(double, bounce_own, u)                    /* [N, N m] mean force of the step: system/assemble/bounces */        \
     X(double, bounce_warmth, u)                 /* [W] dissipated by its damper: system/assemble/bounces */           \
     X(uint8_t, bounce_stays, u)                 /* 1: the next step has a mean force, too: system/bounce_end */       \

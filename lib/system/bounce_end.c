@@ -54,6 +54,8 @@ static uint8_t stays(const dmb_evaluation *evaluation, uint32_t u, double invers
 {
     const dmb_sim *sim = evaluation->sim;
     const double h = evaluation->step, age = fabs(sim->bounce_age[u]);
+    if (sim->bounce_turns[u]) return (uint8_t)b->closed;
+    if (!dmb_bounce_can_open(sim->scene, u)) return 0;
     if (!b->closed || (!dmb_unilateral_touches(a, b) && age + 1.0 >= DMB_BOUNCE_STEPS)) return 0;
     if (!dmb_unilateral_touches(a, b)) return sim->bounce_age[u] < 0.0;
     return (b->slope * h + dmb_bounce_damping(sim->scene, u)) * h * inverse_mass > DMB_BOUNCE_RESOLVED;
@@ -216,9 +218,10 @@ static void exchange_sites(const dmb_evaluation *evaluation)
 static int law_bounces(const dmb_sim *sim, uint32_t u)
 {
     dmb_unilateral_end a, b;
+    if (sim->bounce_mode[u] != DMB_BOUNCE_LAW) return 1;
     if (!dmb_bounce_can_open(sim->scene, u)) return 0;
     dmb_bounce_ends(sim, u, &a, &b);
-    return sim->bounce_mode[u] != DMB_BOUNCE_LAW || dmb_unilateral_touches(&a, &b);
+    return dmb_unilateral_touches(&a, &b);
 }
 
 static int laws_bounce(const dmb_sim *sim)
@@ -377,9 +380,9 @@ static void accept_laws(const dmb_evaluation *evaluation, int32_t found)
     dmb_sim *sim = evaluation->sim;
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end a, b;
-        if (!dmb_bounce_can_open(sim->scene, u)) continue;
+        if (!dmb_bounce_acts(sim->scene, u)) continue;
         dmb_bounce_ends(sim, u, &a, &b);
-        if (sim->bounce_mode[u] != DMB_BOUNCE_LAW || dmb_unilateral_touches(&a, &b))
+        if (law_bounces(sim, u))
             exchange_power(sim, u);
         else
             take_mean_speed(evaluation, u);

@@ -173,23 +173,31 @@ void dmb_bounces_begin(dmb_sim *sim, double step)
 {
     begin_sites(sim, step);
     *sim->laws_bounce = 0;
-    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
-        sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
+    dmb_bounces_mark_turning(sim, step, 0);
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
+        const int holds = sim->bounce_turns[u] && dmb_bounce_holds(sim->scene, u);
+        const int begins = holds && sim->now.bounce_force[u] == 0.0; /* it is not in the history */
+        sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 || begins ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
+    }
 }
 
-/* 1: the law pressed at the start of the step and is open, or on its other side, at the end. */
+/* 1: the law pressed at the start of the step and is open, or on its other side, at the end; or its mean forces begin
+ * with this step. */
 static int opens(const dmb_sim *sim, uint32_t u)
 {
     dmb_unilateral_end a, b;
-    if (sim->bounce_mode[u] != DMB_BOUNCE_LAW || !dmb_bounce_can_open(sim->scene, u)) return 0;
+    if (sim->bounce_mode[u] != DMB_BOUNCE_LAW) return 0;
+    if (sim->bounce_turns[u]) return sim->now.bounce_force[u] != 0.0;
+    if (!dmb_bounce_can_open(sim->scene, u)) return 0;
     dmb_bounce_ends(sim, u, &a, &b);
     if (!a.closed || sim->now.bounce_force[u] == 0.0) return 0;
     return !b.closed || a.depth * b.depth < 0.0 || (b.depth != 0.0 && sim->trial.bounce_force[u] == 0.0);
 }
 
-int32_t dmb_bounces_open(dmb_sim *sim)
+int32_t dmb_bounces_open(dmb_sim *sim, double step)
 {
     int32_t found = 0;
+    dmb_bounces_mark_turning(sim, step, 1);
     for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++) {
         if (!site_opens(sim, s)) continue;
         sim->site_mode[s] = DMB_BOUNCE_OPENS;
@@ -223,6 +231,6 @@ void dmb_bounces_start(dmb_sim *sim)
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end end;
         dmb_bounce_end_at(sim->scene, u, sim->now.bounce_place[u], &end);
-        sim->bounce_age[u] = dmb_bounce_can_open(sim->scene, u) && end.closed ? DMB_BOUNCE_STEPS : 0.0;
+        sim->bounce_age[u] = dmb_bounce_acts(sim->scene, u) && end.closed ? DMB_BOUNCE_STEPS : 0.0;
     }
 }

@@ -1,6 +1,6 @@
-/* Contact points, stops of joints and one-sided springs: treatment of their touch and release in steps
- * (eq:unilateral.mean, eq:contact.mean). Stops and springs have the common index u: laws of joints first, then springs.
- */
+/* Contact points, stops of joints and springs: treatment of their touch and release in steps (eq:unilateral.mean,
+ * eq:contact.mean), and of springs whose gradient turns (eq:unilateral.holding). Stops and springs have the common
+ * index u: stops of joints first, then springs between points, then springs of joints. */
 #ifndef DMB_SYSTEM_ASSEMBLE_BOUNCES_H
 #define DMB_SYSTEM_ASSEMBLE_BOUNCES_H
 
@@ -27,6 +27,15 @@ enum { DMB_SITE_STAYS = 4, DMB_SITE_CARRIED = 8, DMB_SITE_MODE = 3, DMB_SITE_OWN
 
 /* 1: the law may open. */
 int dmb_bounce_can_open(const dmb_scene *scene, uint32_t u);
+/* 1: the law is a spring that acts on both sides and is never open. */
+int dmb_bounce_holds(const dmb_scene *scene, uint32_t u);
+/* 1: one of both. */
+int dmb_bounce_acts(const dmb_scene *scene, uint32_t u);
+/* Index of the spring of a law of a joint. */
+uint32_t dmb_bounce_of_law(const dmb_scene *scene, uint32_t law);
+/* Law of a joint whose stop or spring u is, and its joint; DMB_NONE: u is a spring between points. */
+uint32_t dmb_bounce_law_of(const dmb_scene *scene, uint32_t u);
+uint32_t dmb_bounce_joint_of(const dmb_scene *scene, uint32_t law);
 /* State of law u at one end of a step, with displacement `place`. */
 void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_unilateral_end *end);
 /* [N s/m, N m s/rad] Damping while the law acts. */
@@ -43,6 +52,8 @@ int dmb_bounce_turns(const dmb_sim *sim, uint32_t node);
  * and the couple about the centre of mass turns with the body (eq:unilateral.free-rigid); others turn as a whole.
  * tangent, shape (6, 3), or NULL: its derivative by the rotation of the node at the end. */
 void dmb_bounce_carry(const dmb_sim *sim, uint32_t node, double w[6], double *tangent);
+/* Increments of a node in the step, with the spin of a rotor; 0 of the ground. */
+void dmb_bounce_travel(const dmb_sim *sim, uint32_t node, double z[6]);
 /* Adds couples about the rotation of the step to the mean gradients of both parts, so that their change of the
  * coordinate by the increment of the step is the one that there is. */
 void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[6], uint32_t b, double Jb[6]);
@@ -53,6 +64,9 @@ void dmb_bounces_add_gyroscopic(dmb_evaluation *evaluation, double factor);
  * the stage ends: without it such steps of bodies that turn by 1 rad have other solutions, whose energy grows without
  * bound (physics_spinning_stops). */
 void dmb_bounces_turn(dmb_evaluation *evaluation);
+/* Marks the laws that a step of length h [s] does not resolve and whose gradient turns in it (bounce_turns), by the
+ * speeds at its start, or as reached in the trial. They have mean forces (eq:unilateral.holding). */
+void dmb_bounces_mark_turning(dmb_sim *sim, double h, int reached);
 /* Node that a step with mean forces has turned much further than the speed at its start would: another solution of its
  * equations, about a turn away. DMB_NONE: none. */
 uint32_t dmb_bounces_overturn(const dmb_sim *sim, double h);
@@ -89,9 +103,9 @@ int dmb_site_has_mean(const dmb_sim *sim, uint32_t site);
 int dmb_sites_have_mean(const dmb_sim *sim);
 /* Start of a step: `step` [s] decides which contacts it resolves. */
 void dmb_bounces_begin(dmb_sim *sim, double step);
-/* 1: laws and contact points that were treated by their law open in the step; they are DMB_BOUNCE_OPENS from then on.
- */
-int32_t dmb_bounces_open(dmb_sim *sim);
+/* 1: laws and contact points that were treated by their law open in the step of length [s], or begin to have mean
+ * forces because they turn; they are DMB_BOUNCE_OPENS from then on. */
+int32_t dmb_bounces_open(dmb_sim *sim, double step);
 /* Mean force of a contact point in the step, per metre. */
 void dmb_site_mean_of(const dmb_sim *sim, uint32_t site, double step, dmb_normal_mean *mean);
 /* [-] Energy gained by the step because other forces exceed the mean forces of contact points, over the energy

@@ -6,19 +6,12 @@
 
 #include "system/assemble/assemble.h"
 
-/* Joint of a law, and its coordinate of six. */
-static uint32_t joint_of(const dmb_scene *scene, uint32_t u)
-{
-    for (uint32_t j = 0; j < scene->joint_count; j++)
-        if (scene->joints[j].law != DMB_NONE && u - scene->joints[j].law < 6) return j;
-    return DMB_NONE;
-}
-
 void dmb_bounce_press(dmb_evaluation *evaluation, const dmb_configuration *at, uint32_t u, double force)
 {
     dmb_sim *sim = evaluation->sim;
-    if (u < sim->scene->law_count)
-        dmb_joint_press(evaluation, at, joint_of(sim->scene, u), u % 6, force);
+    const uint32_t law = dmb_bounce_law_of(sim->scene, u);
+    if (law != DMB_NONE)
+        dmb_joint_press(evaluation, at, dmb_bounce_joint_of(sim->scene, law), law % 6, force);
     else
         dmb_spring_press(sim, at, u - sim->scene->law_count, force);
 }
@@ -26,8 +19,9 @@ void dmb_bounce_press(dmb_evaluation *evaluation, const dmb_configuration *at, u
 void dmb_bounce_press_mean(dmb_evaluation *evaluation, uint32_t u, double force)
 {
     dmb_sim *sim = evaluation->sim;
-    if (u < sim->scene->law_count)
-        dmb_joint_press_mean(evaluation, joint_of(sim->scene, u), u % 6, force);
+    const uint32_t law = dmb_bounce_law_of(sim->scene, u);
+    if (law != DMB_NONE)
+        dmb_joint_press_mean(evaluation, dmb_bounce_joint_of(sim->scene, law), law % 6, force);
     else
         dmb_spring_press_mean(sim, u - sim->scene->law_count, force);
 }

@@ -19,8 +19,7 @@
 
 int dmb_bounce_turns(const dmb_sim *sim, uint32_t node)
 {
-    return node != DMB_NONE && sim->scene->layout.size[node] == DMB_NODE_SIX_DOF &&
-           dmb_rotor_on(sim->scene, node) == DMB_NONE;
+    return node != DMB_NONE && sim->scene->layout.size[node] == DMB_NODE_SIX_DOF;
 }
 
 /* ---- Free rigid bodies -------------------------------------------------------------------------------------------
@@ -43,8 +42,10 @@ static const double *centre_of(const dmb_sim *sim, uint32_t rigid)
 void dmb_bounce_carry(const dmb_sim *sim, uint32_t node, double w[6], double *tangent)
 {
     const uint32_t rigid = dmb_free_rigid_on(sim->scene, node);
+    const uint32_t rotor = dmb_rotor_on(sim->scene, node);
     double E[9], f[3], m[3], block[9], moment[9];
     if (tangent != NULL) memset(tangent, 0, 18 * sizeof *tangent);
+    if (rotor != DMB_NONE) dmb_rotor_carry_wrench(sim, rotor, w);
     if (rigid == DMB_NONE) return;
     const double *c = centre_of(sim, rigid);
     rotation_matrix(sim, node, E);
@@ -59,11 +60,20 @@ void dmb_bounce_carry(const dmb_sim *sim, uint32_t node, double w[6], double *ta
     for (int i = 0; i < 9; i++) tangent[i] = block[i], tangent[9 + i] = moment[i];
 }
 
+void dmb_bounce_travel(const dmb_sim *sim, uint32_t node, double z[6])
+{
+    memset(z, 0, 6 * sizeof *z);
+    if (node == DMB_NONE) return;
+    dmb_vec6_copy(sim->increment + sim->scene->layout.row[node], z);
+    dmb_rotor_add_travel(sim, node, z);
+}
+
 /* [m, rad] J z of a node */
 static double along(const dmb_sim *sim, uint32_t node, const double J[6])
 {
+    double z[6];
     if (node == DMB_NONE) return 0.0;
-    const double *z = sim->increment + sim->scene->layout.row[node];
+    dmb_bounce_travel(sim, node, z);
     const uint32_t rigid = dmb_free_rigid_on(sim->scene, node);
     if (rigid == DMB_NONE) return dmb_vec6_dot(J, z);
     double E[9], F[3], T[3];
@@ -74,19 +84,16 @@ static double along(const dmb_sim *sim, uint32_t node, const double J[6])
     return dmb_vec3_dot(F, z) + dmb_vec3_dot(T, z + 3);
 }
 
-static const double *rotation_of(const dmb_sim *sim, uint32_t node)
-{
-    static const double none[3] = {0.0};
-    return node == DMB_NONE ? none : sim->increment + sim->scene->layout.row[node] + 3;
-}
-
 /* [rad2] rotation in the step below which the mean of both ends is the mean */
 #define DMB_TURN_LEAST 1e-12
 
 void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[6], uint32_t b, double Jb[6])
 {
     if ((a != DMB_NONE && !dmb_bounce_turns(sim, a)) || (b != DMB_NONE && !dmb_bounce_turns(sim, b))) return;
-    const double *ta = rotation_of(sim, a), *tb = rotation_of(sim, b);
+    double za[6], zb[6];
+    const double *ta = za + 3, *tb = zb + 3;
+    dmb_bounce_travel(sim, a, za);
+    dmb_bounce_travel(sim, b, zb);
     const double squares = dmb_vec3_norm_squared(ta) + dmb_vec3_norm_squared(tb);
     if (!(squares > DMB_TURN_LEAST)) return;
     const double moved = sim->trial.bounce_place[u] - sim->now.bounce_place[u];
@@ -175,7 +182,7 @@ uint32_t dmb_bounces_overturn(const dmb_sim *sim, double h)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; *sim->laws_bounce && i < scene->rigid_mass_count; i++) {
         const uint32_t node = scene->rigid_masses[i].node, row = scene->layout.row[node];
-        if (!dmb_bounce_turns(sim, node)) continue;
+        if (!dmb_bounce_turns(sim, node) || dmb_rotor_on(scene, node) != DMB_NONE) continue;
         const double turned = dmb_vec3_norm(sim->increment + row + 3);
         const double free = h * dmb_vec3_norm(sim->now.velocity + row + 3);
         if (turned > DMB_TURN_FREE + DMB_TURN_SHARE * free) return node;

@@ -8,15 +8,50 @@ uint32_t dmb_bounce_of_spring(const dmb_scene *scene, uint32_t spring)
     return scene->law_count + spring;
 }
 
+uint32_t dmb_bounce_of_law(const dmb_scene *scene, uint32_t law)
+{
+    return scene->law_count + scene->spring_count + law;
+}
+
+uint32_t dmb_bounce_law_of(const dmb_scene *scene, uint32_t u)
+{
+    if (u < scene->law_count) return u;
+    return u < scene->law_count + scene->spring_count ? DMB_NONE : u - scene->law_count - scene->spring_count;
+}
+
+uint32_t dmb_bounce_joint_of(const dmb_scene *scene, uint32_t law)
+{
+    for (uint32_t j = 0; j < scene->joint_count; j++)
+        if (scene->joints[j].law != DMB_NONE && law - scene->joints[j].law < 6) return j;
+    return DMB_NONE;
+}
+
+static int is_stop(const dmb_scene *scene, uint32_t u)
+{
+    return u < scene->law_count;
+}
+
 static const dmb_scene_spring *spring_of(const dmb_scene *scene, uint32_t u)
 {
-    return u < scene->law_count ? NULL : scene->springs + (u - scene->law_count);
+    return dmb_bounce_law_of(scene, u) != DMB_NONE ? NULL : scene->springs + (u - scene->law_count);
 }
 
 int dmb_bounce_can_open(const dmb_scene *scene, uint32_t u)
 {
     const dmb_scene_spring *spring = spring_of(scene, u);
-    return spring != NULL ? dmb_spring_can_open(&spring->law) : dmb_stop_acts(scene->laws + u);
+    return spring != NULL ? dmb_spring_can_open(&spring->law) : is_stop(scene, u) && dmb_stop_acts(scene->laws + u);
+}
+
+int dmb_bounce_holds(const dmb_scene *scene, uint32_t u)
+{
+    const dmb_scene_spring *spring = spring_of(scene, u);
+    if (spring != NULL) return !dmb_spring_can_open(&spring->law) && spring->law.stiffness > 0.0;
+    return !is_stop(scene, u) && scene->laws[dmb_bounce_law_of(scene, u)].stiffness > 0.0;
+}
+
+int dmb_bounce_acts(const dmb_scene *scene, uint32_t u)
+{
+    return dmb_bounce_can_open(scene, u) || dmb_bounce_holds(scene, u);
 }
 
 void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_unilateral_end *end)
@@ -24,14 +59,16 @@ void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_uni
     const dmb_scene_spring *spring = spring_of(scene, u);
     if (spring != NULL)
         dmb_spring_end_at(&spring->law, scene->spring_points + spring->law.first, place, end);
-    else
+    else if (is_stop(scene, u))
         dmb_stop_at(scene->laws + u, place, end);
+    else
+        dmb_joint_spring_end_at(scene->laws + dmb_bounce_law_of(scene, u), place, end);
 }
 
 double dmb_bounce_damping(const dmb_scene *scene, uint32_t u)
 {
     const dmb_scene_spring *spring = spring_of(scene, u);
-    if (spring == NULL) return scene->laws[u].stop_damping;
+    if (spring == NULL) return is_stop(scene, u) ? scene->laws[u].stop_damping : 0.0;
     return spring->law.acts != DMB_SPRING_BOTH ? spring->law.damping : 0.0;
 }
 
@@ -50,7 +87,7 @@ double dmb_bounce_heat(const dmb_sim *sim, const dmb_configuration *configuratio
 
 int dmb_bounce_power(const dmb_sim *sim, uint32_t u)
 {
-    return u < sim->scene->law_count ? DMB_POWER_IMPACT : DMB_POWER_DAMPING;
+    return is_stop(sim->scene, u) ? DMB_POWER_IMPACT : DMB_POWER_DAMPING;
 }
 
 static void note(dmb_sim *sim, uint32_t u, const dmb_bounce *law)
@@ -61,6 +98,28 @@ static void note(dmb_sim *sim, uint32_t u, const dmb_bounce *law)
     sim->bounce_own[u] = sim->bounce_warmth[u] = 0.0;
 }
 
+/* Numerical damping e (f1 - f0), e = (1 - r)/(2 (1 + r)): a motion that steps do not resolve at all then goes by x1 =
+ * -r x0, as with the law, r being the spectral radius (eq:unilateral.holding). */
+static void add_numerical_damping(const dmb_sim *sim, const dmb_unilateral_end *a, const dmb_unilateral_end *b,
+                                  dmb_unilateral_mean *mean)
+{
+    const double r = sim->options.spectral_radius, share = 0.5 * (1.0 - r) / (1.0 + r);
+    mean->force += share * (b->force - a->force);
+    mean->by_place += share * b->slope;
+}
+
+/* 1: never open, or a lasting contact. */
+static int lasts(const dmb_sim *sim, uint32_t u)
+{
+    return dmb_bounce_holds(sim->scene, u) || fabs(sim->bounce_age[u]) >= DMB_BOUNCE_STEPS;
+}
+
+static int follows_law(const dmb_sim *sim, uint32_t u, const dmb_unilateral_end *a, const dmb_unilateral_end *b)
+{
+    if (sim->bounce_mode[u] != DMB_BOUNCE_LAW) return 0;
+    return !dmb_bounce_can_open(sim->scene, u) || !dmb_unilateral_touches(a, b);
+}
+
 /* The trapezoidal rule of the ledger uses half of the power at each end of the step: at its start that of the law, or 0
  * if the force of the step before was a mean force. */
 int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law, dmb_bounce_force *own)
@@ -69,10 +128,11 @@ int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law,
     dmb_unilateral_end a, b;
     dmb_unilateral_mean mean;
     note(sim, u, law);
-    if (!(evaluation->own_factor > 0.0) || !dmb_bounce_can_open(sim->scene, u)) return 0;
+    if (!(evaluation->own_factor > 0.0)) return 0;
     dmb_bounce_ends(sim, u, &a, &b);
-    if (sim->bounce_mode[u] == DMB_BOUNCE_LAW && !dmb_unilateral_touches(&a, &b)) return 0;
+    if (follows_law(sim, u, &a, &b)) return 0;
     dmb_unilateral_mean_of(&a, &b, dmb_bounce_damping(sim->scene, u), evaluation->step, &mean);
+    if (sim->bounce_turns[u] && lasts(sim, u)) add_numerical_damping(sim, &a, &b, &mean);
     own->force = evaluation->own_factor * mean.force;
     own->by_place = evaluation->own_factor * mean.by_place;
     own->heat = -2.0 * mean.dissipated / evaluation->step;
@@ -86,6 +146,9 @@ int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law,
 void dmb_bounce_rest(dmb_sim *sim, uint32_t u)
 {
     const dmb_joint_law *law = sim->scene->laws + u;
+    const uint32_t spring = dmb_bounce_of_law(sim->scene, u);
     sim->trial.bounce_place[u] = fmax(law->stop_low, fmin(law->stop_high, 0.0));
+    sim->trial.bounce_place[spring] = law->rest;
     sim->trial.bounce_force[u] = sim->trial.bounce_speed[u] = 0.0;
+    sim->trial.bounce_force[spring] = sim->trial.bounce_speed[spring] = 0.0;
 }

@@ -55,21 +55,36 @@ static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *j
     return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
 }
 
-/* Mean force of the stop of coordinate i. */
-static void take_own_stop(dmb_evaluation *evaluation, uint32_t u, coordinate_forces *f, int i, dmb_joint_force *law)
+/* Adds a mean force on coordinate i. */
+static void add_mean(coordinate_forces *f, int i, const dmb_bounce_force *own)
 {
-    dmb_joint_law bare = evaluation->sim->scene->laws[u];
-    const dmb_bounce stop = {f->c.value[i], f->speed[i], -(law->stop + law->stop_damper)};
-    dmb_bounce_force own;
-    if (!dmb_bounce_at(evaluation, u, &stop, &own)) return;
-    bare.stop_stiffness = 0.0;
-    dmb_joint_force_at(&bare, f->c.value[i], f->speed[i], law);
-    law->stop = -own.force;
-    f->mean[i] = -own.force;
-    f->mean_slope[i] = -own.by_place;
+    f->mean[i] -= own->force;
+    f->mean_slope[i] -= own->by_place;
     f->has_mean = 1;
-    evaluation->power[DMB_POWER_POTENTIAL] -= own.heat;
-    evaluation->power[DMB_POWER_IMPACT] += own.heat;
+}
+
+/* Mean forces of stop and spring of coordinate i. */
+static void take_own(dmb_evaluation *evaluation, uint32_t l, coordinate_forces *f, int i, dmb_joint_force *law)
+{
+    const double x = f->c.value[i], speed = f->speed[i];
+    const dmb_bounce stop = {x, speed, -(law->stop + law->stop_damper)}, spring = {x, speed, -law->spring};
+    dmb_joint_law bare = evaluation->sim->scene->laws[l];
+    dmb_bounce_force of_stop, of_spring;
+    const int stops = dmb_bounce_at(evaluation, l, &stop, &of_stop);
+    const int holds = dmb_bounce_at(evaluation, dmb_bounce_of_law(evaluation->sim->scene, l), &spring, &of_spring);
+    if (!stops && !holds) return;
+    if (stops) bare.stop_stiffness = 0.0;
+    if (holds) bare.stiffness = 0.0;
+    dmb_joint_force_at(&bare, x, speed, law);
+    if (holds) {
+        law->spring = -of_spring.force;
+        add_mean(f, i, &of_spring);
+    }
+    if (!stops) return;
+    law->stop = -of_stop.force;
+    add_mean(f, i, &of_stop);
+    evaluation->power[DMB_POWER_POTENTIAL] -= of_stop.heat;
+    evaluation->power[DMB_POWER_IMPACT] += of_stop.heat;
 }
 
 /* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. */
@@ -79,8 +94,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         dmb_joint_force law;
         if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
         dmb_joint_force_at(evaluation->sim->scene->laws + joint->law + i, f->c.value[i], f->speed[i], &law);
-        if (evaluation->sim->scene->unilateral_count > 0)
-            take_own_stop(evaluation, joint->law + (uint32_t)i, f, i, &law);
+        if (evaluation->sim->scene->unilateral_count > 0) take_own(evaluation, joint->law + (uint32_t)i, f, i, &law);
         f->force[i] += law.force;
         f->by_position[i] += law.by_position;
         f->by_speed[i] += law.by_speed;
@@ -150,6 +164,7 @@ static void unit_mean(const dmb_sim *sim, const dmb_scene_joint *joint, const co
     add_wrenches(&before->relative, &before->c, 1.0, unit, start[0], start[1]);
     for (int k = 0; k < 2; k++) {
         const int turns = dmb_bounce_turns(sim, node[k]);
+        if (turns) dmb_bounce_carry(sim, node[k], start[k], NULL);
         for (int m = 0; m < 6; m++) w[k][m] += turns ? start[k][m] : w[k][m];
     }
 }
@@ -210,7 +225,10 @@ static void add_mean_tangent(const dmb_evaluation *evaluation, const dmb_constra
         dmb_add_joint_row(sim->scene, constraint, j, &f->relative, 1.0, f->c.J[i], end);
         for (uint32_t k = 0; k < constraint->node_count; k++) {
             const uint32_t node = constraint->node[k], first = constraint->column[k];
-            if (dmb_bounce_turns(sim, node)) continue;
+            if (dmb_bounce_turns(sim, node)) {
+                dmb_bounce_carry(sim, node, start + first, NULL);
+                continue;
+            }
             memcpy(start + first, end + first, sim->scene->layout.size[node] * sizeof(double));
         }
         for (uint32_t r = 0; r < n; r++)

@@ -141,6 +141,7 @@ static void add_point(const dmb_evaluation *evaluation, const dmb_spring_motion 
  * and -1 at a, and that half as wrenches on its nodes at the end of the step. */
 typedef struct mean_point {
     const dmb_point_motion *at;
+    double share; /* [-] of the end of the step, l1/(l0 + l1) */
     double sign, wrench[12];
     double turn[18]; /* its derivative by the rotation of a free rigid body at the end, shape (6, 3) */
 } mean_point;
@@ -155,10 +156,11 @@ static void mean_point_of(const dmb_sim *sim, const dmb_spring_motion *before, c
     memset(to, 0, sizeof *to);
     to->at = b ? &m->b : &m->a;
     to->sign = b ? 1.0 : -1.0;
+    to->share = end->length / (before->length + end->length);
     if (last->nodes == 0) return;
     line_at(to->at, m->n, line);
     for (int k = 0; k < 12; k++)
-        for (int i = 0; i < 3; i++) to->wrench[k] += 0.5 * to->sign * to->at->map[12 * i + k] * line[i];
+        for (int i = 0; i < 3; i++) to->wrench[k] += (1.0 - to->share) * to->sign * to->at->map[12 * i + k] * line[i];
     if (turns) dmb_bounce_carry(sim, last->node[0], to->wrench, to->turn);
 }
 
@@ -166,7 +168,7 @@ static void mean_point_of(const dmb_sim *sim, const dmb_spring_motion *before, c
  * rigid body under the tension. */
 static void mean_gradient(const dmb_sim *sim, const mean_point point[2], double tension, spring_tangent *t, double *row)
 {
-    for (uint32_t c = 0; c < t->sum.columns; c++) row[c] *= 0.5;
+    for (uint32_t c = 0; c < t->sum.columns; c++) row[c] *= point->share;
     for (int p = 0; p < 2; p++) {
         double A[144] = {0.0};
         if (point[p].at->nodes == 0) continue;
@@ -190,7 +192,8 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spri
     dmb_force_tangent_touch(scene, &m->b, &t.sum);
     dmb_force_tangent_clear(&t.sum);
     turn_of_line(scene, m, &t);
-    const double at_end = mean != NULL ? 0.5 * m->force.elastic + m->force.damper : m->force.elastic + m->force.damper;
+    const double at_end =
+        mean != NULL ? mean->share * m->force.elastic + m->force.damper : m->force.elastic + m->force.damper;
     add_point(evaluation, m, &m->b, 1.0, at_end, &t);
     add_point(evaluation, m, &m->a, -1.0, at_end, &t);
     relative_velocity(m, v);
@@ -234,7 +237,7 @@ static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *en
         line_at(last[p], end->n, line);
         for (int k = 0; k < 6; k++) {
             J[p][k] = point[p].wrench[k];
-            for (int i = 0; i < 3; i++) J[p][k] += 0.5 * point[p].sign * last[p]->map[12 * i + k] * line[i];
+            for (int i = 0; i < 3; i++) J[p][k] += point->share * point[p].sign * last[p]->map[12 * i + k] * line[i];
         }
         dmb_vec3_copy(J[p] + 3, ends[p]);
     }
@@ -251,8 +254,8 @@ static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *en
 static void pull_mean(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *end, const mean_point point[2],
                       double tension)
 {
-    pull(sim, &end->b, end->n, -0.5 * tension);
-    pull(sim, &end->a, end->n, 0.5 * tension);
+    pull(sim, &end->b, end->n, -point->share * tension);
+    pull(sim, &end->a, end->n, point->share * tension);
     for (int p = 1; p >= 0; p--)
         for (uint32_t n = 0; n < point[p].at->nodes; n++) {
             double w[6];

@@ -47,17 +47,20 @@ static void carry(const dmb_sim *sim, uint32_t rotor, const double v[6], double 
 }
 
 /* (f; m) <- Ad(P)^T (f; m) = (R^T f; R^T (m - x x f)) */
+void dmb_rotor_carry_wrench(const dmb_sim *sim, uint32_t rotor, double f[6])
+{
+    const dmb_rotor_step *step = sim->rotor_step + rotor;
+    double m[3];
+    dmb_vec3_cross(step->x, f, m);
+    dmb_vec3_sub(f + 3, m, m);
+    dmb_mat3_tvec(step->R, m, f + 3);
+    dmb_vec3_copy(f, m);
+    dmb_mat3_tvec(step->R, m, f);
+}
+
 void dmb_rotors_carry_wrenches(const dmb_sim *sim, double *rows)
 {
-    for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {
-        const dmb_rotor_step *step = sim->rotor_step + i;
-        double *f = rows + row_of(sim, i), m[3];
-        dmb_vec3_cross(step->x, f, m);
-        dmb_vec3_sub(f + 3, m, m);
-        dmb_mat3_tvec(step->R, m, f + 3);
-        dmb_vec3_copy(f, m);
-        dmb_mat3_tvec(step->R, m, f);
-    }
+    for (uint32_t i = 0; i < sim->scene->rotor_count; i++) dmb_rotor_carry_wrench(sim, i, rows + row_of(sim, i));
 }
 
 void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], double acceleration[6],

@@ -43,7 +43,9 @@ uint32_t dmb_rotor_on(const dmb_scene *scene, uint32_t node);
 void dmb_rotor_turning(const dmb_sim *sim, uint32_t rotor, const double dv[6], double change[6]);
 /* Converts v' and a to V' and A: adds ad(O) v. */
 void dmb_rotor_enter(const dmb_sim *sim, uint32_t rotor, const double v[6], double acceleration[6]);
-/* Transforms wrenches on rotors at the start of the step, in the rows of their nodes, to the axes reached by P(h). */
+/* Transforms a wrench on a rotor at the start of the step, or those in the rows of all rotors, to the axes reached by
+ * P(h). */
+void dmb_rotor_carry_wrench(const dmb_sim *sim, uint32_t rotor, double wrench[6]);
 void dmb_rotors_carry_wrenches(const dmb_sim *sim, double *rows);
 /* Converts V, V', A to v, v', a. */
 void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], double acceleration[6],

@@ -1,0 +1,169 @@
+/* Energy of spinning and swinging bodies on springs that steps do not resolve (h w >= 3, w of the body on its spring):
+ * at most 1.01 of the initial energy with every spectral radius, and that energy with radius 1. Two-sided springs
+ * beside the axis, stretched and not, between ground and body and between two bodies; ropes; springs of joints; a body
+ * of revolution on a joint. Before, it grew without bound. Equations: eq:unilateral.holding, eq:unilateral.turning. */
+#include <math.h>
+#include <string.h>
+
+#include "drillmbd/scene.h"
+#include "mechanism.h"
+
+enum { FOUR_SPRINGS, STRETCHED, TWO_BODIES, SWINGING, ROPE, ROTOR, BUSHING, BUSHING_OF_TWO, KINDS };
+static const char *const names[KINDS] = {"four springs beside the axis",
+                                         "a stretched spring",
+                                         "a stretched spring between two bodies",
+                                         "swinging on a spring",
+                                         "swinging on a rope",
+                                         "a rotor on a ball joint with a spring",
+                                         "on springs of a joint",
+                                         "two bodies on springs of a joint"};
+
+static const double mass = 2.0, spin = 100.0;
+
+typedef struct held {
+    int kind;
+    double per_step, hw, radius;
+} held;
+
+static double energy_now(const rig *s)
+{
+    const dmb_energy e = energy_of(s);
+    return e.kinetic + e.strain;
+}
+
+static dmb_id add_turning(rig *s, double turned, double across, double y, int round)
+{
+    dmb_body_def body = dmb_body_def_default();
+    const double start[6] = {0.0, across, 0.31, turned * spin, turned != 0.0 ? 3.0 : 0.0, 0.0};
+    body.mass = mass;
+    body.inertia[0] = 0.004, body.inertia[1] = round ? 0.005 : 0.006, body.inertia[2] = 0.005;
+    body.position[1] = y;
+    memcpy(body.velocity, start, sizeof start);
+    return add_body(s, &body);
+}
+
+/* A spring from `from` to a body at x = 0.1 and y = beside, stretched by [m]. */
+static void add_held(rig *s, dmb_place from, dmb_id body, double beside, const double to[3], double k, double stretched,
+                     int acts)
+{
+    dmb_spring_def def = dmb_spring_def_default();
+    dmb_id id = {0, 0};
+    def.place_a = from;
+    def.place_b = dmb_station(body, 0, 0.0);
+    def.offset_b[0] = 0.1, def.offset_b[1] = beside;
+    memcpy(def.offset_a, to, 3 * sizeof(double));
+    def.acts = acts;
+    def.stiffness = k;
+    def.free_length = 0.5 - stretched;
+    must_model(s, dmb_model_add_spring(s->model, &def, &id));
+}
+
+static void add_four(rig *s, dmb_id body, double k)
+{
+    for (int i = 0; i < 4; i++) {
+        double to[3] = {0.1, 0.05, 0.0};
+        to[1 + i % 2] += i < 2 ? 0.5 : -0.5;
+        add_held(s, dmb_station(ground_id, 0, 0.0), body, 0.05, to, k, 0.0, DMB_SPRING_BOTH);
+    }
+}
+
+static void add_bushing(rig *s, dmb_place from, dmb_id body, double k)
+{
+    dmb_joint_def joint = joint_between(DMB_JOINT_FREE, from, dmb_station(body, 0, 0.0));
+    joint.origin_a[0] = joint.origin_b[0] = 0.1;
+    joint.origin_a[1] = joint.origin_b[1] = 0.05;
+    for (int i = 0; i < 3; i++) joint.stiffness[i] = k;
+    joint.rest[1] = 0.05;
+    (void)add_joint(s, &joint);
+}
+
+static void add_rotor(rig *s, double k)
+{
+    const double to[3] = {0.1, 0.55, 0.0};
+    dmb_body_def body = dmb_body_def_default();
+    body.mass = mass;
+    body.inertia[0] = 0.004, body.inertia[1] = body.inertia[2] = 0.005;
+    body.velocity[3] = spin, body.velocity[4] = 3.0;
+    const dmb_id id = add_body(s, &body);
+    const dmb_joint_def ball =
+        joint_between(DMB_JOINT_SPHERICAL, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
+    (void)add_joint(s, &ball);
+    add_held(s, dmb_station(ground_id, 0, 0.0), id, 0.05, to, k, 0.05, DMB_SPRING_BOTH);
+}
+
+static void add_kind(rig *s, int kind, double k)
+{
+    const dmb_place ground = dmb_station(ground_id, 0, 0.0);
+    const double beside[3] = {0.1, 0.55, 0.0}, mate[3] = {0.1, 0.05, 0.02};
+    if (kind == FOUR_SPRINGS) add_four(s, add_turning(s, 1.0, 0.5, 0.0, 0), k);
+    if (kind == STRETCHED)
+        add_held(s, ground, add_turning(s, 1.0, 0.5, 0.0, 0), 0.05, beside, k, 0.05, DMB_SPRING_BOTH);
+    if (kind == TWO_BODIES) {
+        const dmb_id a = add_turning(s, -0.5, -0.5, 0.5, 0);
+        add_held(s, dmb_station(a, 0, 0.0), add_turning(s, 1.0, 0.5, 0.0, 0), 0.05, mate, 0.5 * k, 0.05,
+                 DMB_SPRING_BOTH);
+    }
+    if (kind == SWINGING || kind == ROPE) {
+        const double over[3] = {0.1, 0.0, 0.5};
+        const int acts = kind == ROPE ? DMB_SPRING_TENSION : DMB_SPRING_BOTH;
+        add_held(s, ground, add_turning(s, 0.0, 0.5 * spin, 0.0, 0), 0.0, over, k, 0.0, acts);
+    }
+    if (kind == ROTOR) add_rotor(s, k);
+    if (kind == BUSHING) add_bushing(s, ground, add_turning(s, 1.0, 0.5, 0.0, 0), k);
+    if (kind == BUSHING_OF_TWO) {
+        const dmb_id a = add_turning(s, -0.5, -0.5, 0.0, 0);
+        add_bushing(s, dmb_station(a, 0, 0.0), add_turning(s, 1.0, 0.5, 0.0, 0), 0.5 * k);
+    }
+}
+
+static void open_scene(rig *s, const held *of)
+{
+    const double w = of->hw * spin / of->per_step;
+    dmb_sim_options options = sharp_options(of->radius, 1e-10);
+    options.energy_ledger = 1;
+    rig_open(s, 0.0, 0.0, 0.0);
+    add_kind(s, of->kind, mass * w * w);
+    assert_int_equal(mechanism_start(s, &options), DMB_OK);
+}
+
+/* Largest energy over the initial one; *error: that of the ledger at the end. */
+static double most_of(const held *of, uint32_t steps, double *error)
+{
+    rig s;
+    double most = 0.0;
+    open_scene(&s, of);
+    const double before = energy_now(&s);
+    for (uint32_t i = 0; i < steps; i++) {
+        const int32_t status = dmb_sim_step(s.sim, of->per_step / spin, NULL);
+        assert_true(status == DMB_OK || status == DMB_NOTE_STEP_CUT);
+        most = fmax(most, energy_now(&s) / before);
+    }
+    *error = fabs(energy_of(&s).error);
+    rig_close(&s);
+    return most;
+}
+
+static void steps_gain_nothing(void **state)
+{
+    static const double radii[] = {0.0, 0.5, 0.8, 0.95, 1.0}, ratios[] = {3.0, 100.0}, turns[] = {0.03, 0.3};
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        double most = 0.0, off = 0.0;
+        for (int i = 0; i < 20; i++) {
+            const held of = {kind, turns[i / 10], ratios[i / 5 % 2], radii[i % 5]};
+            double error;
+            most = fmax(most, most_of(&of, 30, &error));
+            if (of.radius == 1.0) off = fmax(off, error);
+        }
+        check_below(names[kind], most, 1.01);
+        check_below("error of the energy with radius 1", off, 0.01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_gain_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
