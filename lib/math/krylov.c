@@ -346,7 +346,7 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
     if (status == DMB_ERR_NO_CONVERGENCE && A->partly && b.values > 0) {
         const uint32_t last = (uint32_t)smaller(wanted, b.values) - 1;
         next = modulus(&b, b.order[last]);
-        wanted = converged(&b, wanted, tolerance);
+        if (A->partly == 1) wanted = converged(&b, wanted, tolerance);
         if (wanted > 0 || A->counted) status = DMB_OK;
     }
     if (status >= 0) status = answer(&b, wanted, out);

@@ -15,7 +15,8 @@ typedef struct dmb_operator {
     size_t length;     /* of vectors */
     size_t dimension;  /* of the space they span */
     int32_t symmetric; /* 1: x . G A y = y . G A x */
-    int32_t partly;    /* 1: if fewer values than requested have converged at the end, these are returned */
+    int32_t partly;    /* 1: if fewer values than requested have converged at the end, these are returned; 2: all
+                          requested are returned as they are, `next` > 0 */
     void (*metric)(void *context, const double *x, double *y);                  /* y = G x */
     void (*apply)(void *context, const double *x, const double *Gx, double *y); /* y = A x */
     void (*draw)(void *context, uint64_t *seed, double *x);                     /* a random vector of the space */

@@ -91,14 +91,16 @@ static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *poin
     return 0;
 }
 
-/* next: the factor after it; an unsymmetric K may be stable again beyond, and the path ends before. */
-static void hold_path(trial *t, built *b, double factor, double next, double tolerance)
+/* next: the factor after it; an unsymmetric K may be stable again beyond, and the path ends before. step: first one of
+ * the path, over the factor. */
+static void hold_path(trial *t, built *b, const double factor_and_next[2], double step, double tolerance)
 {
+    const double factor = factor_and_next[0], next = factor_and_next[1];
     signs s = {0.0, 1e300, 0, 0, extras_of(&t->s).torque == 0.0, 0, 0.0};
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     options.factor_end = s.symmetric ? 1.2 * factor : fmin(1.2 * factor, 0.5 * (factor + next));
-    options.first_step = 0.07 * factor;
+    options.first_step = step * factor;
     options.callback = look;
     options.callback_context = &s;
     const int32_t status = dmb_analysis_path(b->sim, &options, &report);
@@ -383,9 +385,14 @@ static void check_snaked(trial *t)
 
 /* ---- All -------------------------------------------------------------------------------------------------------- */
 
+/* First step of a path over the factor; the path of twice the elements has half of it. */
+#define BUCKLED_STEP 0.07
+/* [-] Load beside that of twice the elements: one element a column has 0.0075, two have 0.0005. */
+#define BUCKLED_MESH 0.015
+
 /* The answer of the analysis about the line under its present push. */
 typedef struct told {
-    double factor, next; /* infinite: none */
+    double factor[2]; /* two lowest, infinite: none */
     dmb_buckling_info info;
 } told;
 
@@ -395,17 +402,39 @@ static void ask(trial *t, built *b, told *out)
     dmb_static_report report = dmb_static_report_default();
     dmb_buckling_options options = dmb_buckling_options_default();
     options.count = 2;
-    out->factor = out->next = (double)INFINITY;
+    out->factor[0] = out->factor[1] = (double)INFINITY;
     out->info = dmb_buckling_info_default();
     int32_t status = scene_open(&t->s, 0, NULL, b);
     if (status >= 0) status = dmb_analysis_static(b->sim, NULL, &report);
     if (status >= 0 && report.negative == 0) status = dmb_analysis_buckling(b->sim, &options, &found);
     if (status < 0) refused(t, status, b->sim ? dmb_sim_message(b->sim) : b->message);
     if (report.negative != 0) left_out(t, "a start above the critical load");
-    (void)dmb_buckling_factor(found, 0, &out->factor);
-    (void)dmb_buckling_factor(found, 1, &out->next);
+    for (uint32_t i = 0; i < 2; ++i) (void)dmb_buckling_factor(found, i, &out->factor[i]);
     if (found != NULL) (void)dmb_buckling_get_info(found, &out->info);
     dmb_buckling_destroy(&found);
+}
+
+static void multiply_elements(scene *s, uint32_t by)
+{
+    for (uint32_t i = 0; i < s->strings; ++i)
+        for (uint32_t p = 0; p < s->string[i].pipes; ++p) s->string[i].pipe[p].elements *= by;
+}
+
+/* The same line with twice the elements, and its path in half the steps. */
+static void hold_finer(trial *t, const told *coarse, double tolerance)
+{
+    built b;
+    told fine;
+    multiply_elements(&t->s, 2);
+    ask(t, &b, &fine);
+    const double load = 1.0 + coarse->factor[0], finer = 1.0 + fine.factor[0];
+    if (t->verdict == VERDICT_HELD) {
+        hold(t, "load of buckling beside that of twice the elements", fabs(finer / load - 1.0),
+             BUCKLED_MESH + tolerance);
+        if (isfinite(finer))
+            hold_path(t, &b, fine.factor, 0.5 * BUCKLED_STEP, tolerance * (1.0 + 1.0 / fine.factor[0]));
+    }
+    scene_close(&b);
 }
 
 static void check_buckled(trial *t)
@@ -413,29 +442,36 @@ static void check_buckled(trial *t)
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_BUCKLING);
     built b;
     told said;
+    for (uint32_t i = 0; i < t->s.strings; ++i)
+        for (uint32_t p = 0; p < t->s.string[i].pipes; ++p) t->s.string[i].pipe[p].elements = 1U << t->s.number % 3;
     const double push = column_load(&t->s) * draw_number(&n, 0.02, 0.5);
     push_along(&t->s, push);
     t->s.radius = 1.0; /* no growth is damped away */
     ask(t, &b, &said);
-    const int flutters = said.info.flutter == DMB_FLUTTER_FOUND, factor = isfinite(said.factor);
-    const double most = factor ? said.factor : flutters ? said.info.flutter_factor : 0.0;
+    const int flutters = said.info.flutter == DMB_FLUTTER_FOUND, factor = isfinite(said.factor[0]);
+    const double most = factor ? said.factor[0] : flutters ? said.info.flutter_factor : 0.0;
     const double critical = (1.0 + most) * push, weight = fabs(extras_of(&t->s).weight);
     const double tolerance = 1e-6 + 20.0 * shortening(&t->s, critical + weight);
     if (!factor && !flutters) left_out(t, "no critical factor");
     if (tolerance > 0.02) left_out(t, "a line that shortens much");
     if (t->verdict == VERDICT_HELD && factor)
-        hold_path(t, &b, said.factor, said.next, tolerance * (1.0 + 1.0 / said.factor));
+        hold_path(t, &b, said.factor, BUCKLED_STEP, tolerance * (1.0 + 1.0 / said.factor[0]));
     scene_close(&b);
+    if (t->verdict != VERDICT_HELD) return;
+    static scene present;
+    present = t->s;
+    if (factor) hold_finer(t, &said, tolerance);
+    t->s = present;
     if (t->verdict != VERDICT_HELD) return;
     if (extras_of(&t->s).torque == 0.0)
         hold_runs_apart(t, critical);
     else
-        hold_flutter(t, &said.info, push, said.factor);
+        hold_flutter(t, &said.info, push, said.factor[0]);
 }
 
 const relation relation_buckled = {
     "buckled",
-    "the factors of buckling and flutter against the path, modes, and runs below and above",
+    "the factors of buckling and flutter against twice the elements, the path, modes, and runs below and above",
     {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL | WISH_ROUND | WISH_FLEXIBLE | WISH_CONSERVATIVE, 3},
     12,
     0.4,

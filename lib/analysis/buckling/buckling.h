@@ -162,6 +162,7 @@ typedef struct dmb_pencil {
     uint32_t *reduced_pivot; /* (rows of the pattern) */
     double *workspace;       /* workspace (square of the largest cluster) */
     double *image;           /* (unknowns) G x */
+    double *iterate;         /* (unknowns) of an inverse iteration */
 } dmb_pencil;
 
 uint32_t dmb_pencil_unknowns(const dmb_scene *scene);
@@ -261,7 +262,7 @@ void dmb_buckling_normalise(const dmb_scene *scene, double *x);
 /* Lowest eigenvalue of the stiffness along a path (buckling_dip.c, eq:buckling.softest). */
 typedef struct dmb_dip_point {
     double arc;    /* [m] of the path */
-    double value;  /* [N/m] lowest eigenvalue of K x = mu E x (dmb_stability_softest) */
+    double value;  /* [N/m] lowest eigenvalue of K x = mu E x (dmb_softest_find) */
     double factor; /* [unit of the factor] */
 } dmb_dip_point;
 
@@ -270,21 +271,23 @@ typedef struct dmb_dip {
     dmb_dip_point least;        /* the minimum found */
     double most;                /* [N/m] largest value so far */
     double depth;               /* [-] of the minimum */
-    double *shape;              /* (rows) of the last value */
+    double value;               /* [N/m] last value computed */
+    double *shape;              /* (rows) of that value */
     double *least_shape;        /* (rows) of the minimum */
-    dmb_sim *state;             /* of the minimum; NULL before the first one */
-    uint32_t points;            /* number of consecutive points examined */
-    int32_t guessed;            /* 1: shape is that of a nearby state */
-    int32_t found;              /* 1: a minimum was found, and the value has not risen by much since */
+    dmb_softest softest;
+    dmb_sim *state;  /* of the minimum; NULL before the first one */
+    uint32_t points; /* number of consecutive points examined */
+    int32_t guessed; /* 1: shape is that of a nearby state */
+    int32_t found;   /* 1: a minimum was found, and the value has not risen by much since */
     int32_t reserved;
 } dmb_dip;
 
 /* First point of a path, from zeros; dmb_dip_close frees the memory in any case. */
 int32_t dmb_dip_begin(dmb_dip *dip, dmb_path *path);
 void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim);
-/* Examines the next point of the path, at `arc` from the last one, with its stiffness factored: 1 if a deep minimum has
- * been passed, with its state, shape and depth in dip. 0: none so far; next is unchanged. `spare`: a copy of the sim
- * that is overwritten. Errors of dmb_path_correct, DMB_ERR_NO_MEMORY. */
+/* Examines the next point of the path, at `arc` from the last one, whose stiffness is overwritten: 1 if a deep minimum
+ * has been passed, with its state, shape and depth in dip. 0: none so far; next is unchanged. `spare`: a copy of the
+ * sim that is overwritten. Errors of dmb_path_correct, DMB_ERR_NO_MEMORY. */
 int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare);
 /* [-] Largest ratio of load to sinusoidal buckling load over all strings of the state, as in a profile; NaN: none. */
 double dmb_dip_sinusoidal_ratio(dmb_sim *at);

@@ -21,14 +21,17 @@
 #define DMB_DIP_SECTIONS 14
 #define DMB_GOLDEN 0.6180339887498949
 
-/* Lowest eigenvalue [N/m]; negative for unstable states. */
+/* Lowest eigenvalue [N/m] of the trial; negative for unstable states. The factors are overwritten. */
 static int32_t softest_of(dmb_dip *dip, dmb_path *path, double *value)
 {
-    int32_t status = dmb_stability_softest(path->work, dip->guessed, value, dip->shape);
-    if (status < 0 && dip->guessed && !dmb_is_final(status))
-        status = dmb_stability_softest(path->work, 0, value, dip->shape);
-    dip->guessed = status >= 0 && isfinite(*value);
-    if (status >= 0 && path->next.negative > 0) *value = -fabs(*value);
+    path->search.evaluation.extrapolated = 0;
+    int32_t status = dmb_path_evaluate(path, 1);
+    if (status < 0) return status;
+    dmb_system_iteration_matrix(&path->search.evaluation);
+    *value = dip->value;
+    status = dmb_softest_find(&dip->softest, path->work, dip->guessed, value, dip->shape);
+    dip->guessed = status >= 0;
+    dip->value = *value;
     return status;
 }
 
@@ -41,7 +44,7 @@ static int32_t go_to(dmb_path *path, double arc)
 
 static int32_t probe(dmb_dip *dip, dmb_path *path, double arc, dmb_dip_point *point)
 {
-    int32_t status = go_to(path, arc);
+    int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
     if (status >= 0) status = softest_of(dip, path, &point->value);
     point->arc = arc;
     point->factor = path->next.factor;
@@ -100,7 +103,9 @@ int32_t dmb_dip_begin(dmb_dip *dip, dmb_path *path)
     dip->shape = dmb_allocate_array(&path->work->allocator, 2 * rows, sizeof(double));
     if (dip->shape == NULL) return DMB_ERR_NO_MEMORY;
     dip->least_shape = dip->shape + rows;
-    const int32_t status = value_here(dip, path, &point.value);
+    int32_t status = dmb_softest_open(path->work, &dip->softest);
+    path->next.factor = path->last.factor;
+    if (status >= 0) status = value_here(dip, path, &point.value);
     if (status > 0) step_to(dip, point);
     return status < 0 ? status : DMB_OK;
 }
@@ -109,6 +114,7 @@ void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim)
 {
     if (dip->shape != NULL)
         dmb_release(&sim->allocator, dip->shape, 2 * sizeof(double) * dmb_dense_scene(sim->scene)->row_count);
+    dmb_softest_close(&dip->softest, sim);
     dmb_state_discard(dip->state);
     dip->shape = dip->least_shape = NULL;
     dip->state = NULL;

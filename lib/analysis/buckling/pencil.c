@@ -51,6 +51,7 @@ void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pe
     pencil->reduced_pivot = DMB_ARENA_ARRAY(arena, uint32_t, reduced_rows(scene));
     pencil->workspace = DMB_ARENA_DOUBLES(arena, largest * largest);
     pencil->image = DMB_ARENA_DOUBLES(arena, pencil->unknowns);
+    pencil->iterate = DMB_ARENA_DOUBLES(arena, pencil->unknowns);
 }
 
 static void combine(size_t n, const double *K, double factor, const double *G, double *out)
@@ -127,51 +128,52 @@ int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
     return 0;
 }
 
+/* Ends of an interval that contains factor number k, and the numbers of factors below them. */
+typedef struct interval {
+    double low, high;
+    uint32_t below_low, below_high;
+} interval;
+
 /* 1 if more than k factors lie below this one, 0 if not, -1 if they cannot be counted. */
-static int exceeds(dmb_pencil *pencil, double factor, uint32_t k)
+static int exceeds(dmb_pencil *pencil, double factor, uint32_t k, uint32_t *count)
 {
-    uint32_t count;
-    return dmb_pencil_count(pencil, factor, &count) ? count > k : -1;
+    return dmb_pencil_count(pencil, factor, count) ? *count > k : -1;
 }
 
 /* Powers of 4 from the guess on, upwards or downwards, until the factor lies between low and high: 1. 0 if it is beyond
  * `most`, -1 if it cannot be counted. */
-static int bracket(dmb_pencil *pencil, uint32_t k, double guess, double most, double *low, double *high)
+static int bracket(dmb_pencil *pencil, uint32_t k, double guess, double most, interval *i)
 {
-    *high = fmin(guess, most);
-    int beyond = exceeds(pencil, *high, k);
+    *i = (interval){0.0, fmin(guess, most), 0, 0};
+    int beyond = exceeds(pencil, i->high, k, &i->below_high);
     if (beyond > 0) {
-        for (*low = 0.25 * *high; *low > 1e-300; *low *= 0.25) {
-            beyond = exceeds(pencil, *low, k);
+        for (i->low = 0.25 * i->high; i->low > 1e-300; i->low *= 0.25) {
+            beyond = exceeds(pencil, i->low, k, &i->below_low);
             if (beyond <= 0) break;
-            *high = *low;
+            i->high = i->low;
+            i->below_high = i->below_low;
         }
         return beyond < 0 ? -1 : 1;
     }
     while (beyond == 0) {
-        if (*high >= most) return 0;
-        *low = *high;
-        *high = fmin(4.0 * *high, most);
-        beyond = exceeds(pencil, *high, k);
+        if (i->high >= most) return 0;
+        i->low = i->high;
+        i->below_low = i->below_high;
+        i->high = fmin(4.0 * i->high, most);
+        beyond = exceeds(pencil, i->high, k, &i->below_high);
     }
     return beyond;
 }
 
-double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance)
+/* Halves the interval. 0 if factors cannot be counted. */
+static int halve(dmb_pencil *pencil, uint32_t k, interval *i)
 {
-    double low = 0.0, high = 0.0;
-    const int found = bracket(pencil, k, guess, most, &low, &high);
-    if (found <= 0) return found == 0 ? (double)INFINITY : (double)NAN;
-    while (high - low > tolerance * high) {
-        const double middle = 0.5 * (low + high);
-        const int beyond = exceeds(pencil, middle, k);
-        if (beyond < 0) return (double)NAN;
-        if (beyond > 0)
-            high = middle;
-        else
-            low = middle;
-    }
-    return 0.5 * (low + high);
+    uint32_t count;
+    const double middle = 0.5 * (i->low + i->high);
+    const int beyond = exceeds(pencil, middle, k, &count);
+    *(beyond > 0 ? &i->high : &i->low) = middle;
+    *(beyond > 0 ? &i->below_high : &i->below_low) = count;
+    return beyond >= 0;
 }
 
 /* ---- Vectors ----------------------------------------------------------------------------------------------------- */
@@ -254,6 +256,67 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x)
         if (is_reduced(scene, i)) memset(x + scene->layout.row[i], 0, scene->layout.size[i] * sizeof(double));
 }
 
+/* ---- Factors ----------------------------------------------------------------------------------------------------- */
+
+/* x . K x / -x . G x, which is stationary at the factors */
+static double quotient(dmb_pencil *pencil, const double *x)
+{
+    dmb_pencil_multiply(pencil, &pencil->K, x, pencil->image);
+    const double stiff = dmb_dot(pencil->unknowns, x, pencil->image);
+    dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
+    return -stiff / dmb_dot(pencil->unknowns, x, pencil->image);
+}
+
+/* x <- (K + f G)^-1 G x by the present factors, scaled */
+static void improve(dmb_pencil *pencil, double *x)
+{
+    dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
+    memcpy(x, pencil->image, pencil->unknowns * sizeof(double));
+    dmb_pencil_solve(pencil, x);
+    normalise(pencil->unknowns, x);
+}
+
+/* The iteration ends at a change by this fraction of the tolerance, or after so many factorisations; if it fails, it is
+ * repeated after so many bisections. */
+#define DMB_PENCIL_CHANGE 0.1
+enum { DMB_PENCIL_SMOOTHINGS = 6, DMB_PENCIL_QUOTIENTS = 6, DMB_PENCIL_HALVES = 8 };
+
+/* Rayleigh quotient iteration from the middle of an interval that contains one factor; it converges with the third
+ * order. Result: the factor; NaN if the counts just below and above do not confirm it. */
+static double iterate(dmb_pencil *pencil, uint32_t k, const interval *i, double tolerance)
+{
+    double *x = pencil->iterate, factor = 0.5 * (i->low + i->high), last = (double)INFINITY;
+    uint32_t below, above;
+    dmb_pencil_draw(pencil, 88172645463325252u, x);
+    if (!dmb_pencil_shift_and_factor(pencil, factor)) return (double)NAN;
+    for (int j = 0; j < DMB_PENCIL_SMOOTHINGS; j++) improve(pencil, x);
+    for (int j = 0; fabs(factor - last) > DMB_PENCIL_CHANGE * tolerance * fabs(factor); j++) {
+        last = factor;
+        if (j > 0) improve(pencil, x);
+        factor = quotient(pencil, x);
+        if (!(factor > i->low && factor < i->high) || j == DMB_PENCIL_QUOTIENTS) return (double)NAN;
+        if (!dmb_pencil_shift_and_factor(pencil, factor)) return (double)NAN;
+    }
+    const int confirmed = dmb_pencil_count(pencil, factor * (1.0 - 0.5 * tolerance), &below) &&
+                          dmb_pencil_count(pencil, factor * (1.0 + 0.5 * tolerance), &above) && below <= k && above > k;
+    return confirmed ? factor : (double)NAN;
+}
+
+double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance)
+{
+    interval i;
+    const int found = bracket(pencil, k, guess, most, &i);
+    if (found <= 0) return found == 0 ? (double)INFINITY : (double)NAN;
+    for (int isolated = 0; i.high - i.low > tolerance * i.high;) {
+        if (i.below_high == i.below_low + 1 && isolated++ % DMB_PENCIL_HALVES == 0) {
+            const double factor = iterate(pencil, k, &i, tolerance);
+            if (!isnan(factor)) return factor;
+        }
+        if (!halve(pencil, k, &i)) return (double)NAN;
+    }
+    return 0.5 * (i.low + i.high);
+}
+
 /* Offset from the factor: one iteration gives 7 digits relative to distant vectors, and one digit less for each factor
  * of ten by which their relative distance is smaller. */
 #define DMB_PENCIL_OFFSET 1e-7
@@ -261,21 +324,14 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x)
 
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x)
 {
-    const uint32_t rows = pencil->unknowns;
     dmb_pencil_draw(pencil, 88172645463325252u + others, x);
     if (!dmb_pencil_shift_and_factor(pencil, factor * (1.0 - DMB_PENCIL_OFFSET))) return factor;
     for (int k = 0; k < DMB_PENCIL_ITERATIONS; k++) {
         split_apart(pencil, other, others, x);
-        dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
-        memcpy(x, pencil->image, rows * sizeof(double));
-        dmb_pencil_solve(pencil, x);
-        normalise(rows, x);
+        improve(pencil, x);
     }
     split_apart(pencil, other, others, x);
-    dmb_pencil_multiply(pencil, &pencil->K, x, pencil->image);
-    const double stiff = dmb_dot(rows, x, pencil->image);
-    dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
-    return -stiff / dmb_dot(rows, x, pencil->image);
+    return quotient(pencil, x);
 }
 
 /* Critical factors of a non-symmetric pencil (friction, moments with a fixed axis): K x = -factor G x is A x = x/factor

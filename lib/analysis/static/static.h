@@ -298,10 +298,27 @@ typedef struct dmb_stability {
 int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out);
 
-/* Eigenvalue of K x = mu E x nearest 0 [N/m], K symmetric, E the lateral displacements of the nodes, by the present
- * factors, and its shape (rows), of unit length in E. `guessed` 1: shape is that of a nearby state.
- * DMB_ERR_NO_CONVERGENCE also if nothing moves laterally; other errors of dmb_krylov_largest. */
-int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *shape);
+/* Lowest eigenvalue of K x = mu E x, K symmetric, E the lateral displacements of the nodes (softest.c). */
+typedef struct dmb_softest {
+    dmb_sim *sim;
+    double *diagonal, *lower, *upper; /* K, unfactored, in the storage of the scene's layout */
+    double *lateral;                  /* (rows) diagonal of E */
+    double *product, *solution;       /* (rows) */
+    const double *guess;              /* (rows) expected shape; NULL: none, or already used */
+    double *multiplier;               /* (rows of constraints) of the trial: solutions change those that are unknowns */
+    uint32_t dimension;               /* rank of E, without joints */
+    uint32_t reserved;
+    void *block;
+    size_t bytes;
+} dmb_softest;
+
+/* Allocates memory, from zeros; dmb_softest_close frees it in any case. */
+int32_t dmb_softest_open(const dmb_sim *sim, dmb_softest *softest);
+void dmb_softest_close(dmb_softest *softest, const dmb_sim *sim);
+/* Value [N/m] and shape (rows), of unit length in E, by the unfactored iteration matrix in the stiffness_ blocks, which
+ * is overwritten. guessed 1: value and shape are those of a nearby state. DMB_ERR_NO_CONVERGENCE also if nothing moves
+ * laterally; errors of dmb_progress_pulse. */
+int32_t dmb_softest_find(dmb_softest *softest, dmb_sim *sim, int guessed, double *value, double *shape);
 
 /* Sufficient condition for the absence of divergence with slipping rings, without eigenvalues.
  *
