@@ -170,6 +170,7 @@ void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, co
     dmb_modes *modes = search->modes;
     const size_t rows = modes->rows;
     double *to = modes->re + rows * k, *also = modes->im != NULL ? modes->im + rows * k : NULL;
+    if (also == NULL) y = NULL; /* only general pencils have complex shapes */
     memcpy(to, x, rows * sizeof(double));
     if (y != NULL)
         memcpy(also, y, rows * sizeof(double));
