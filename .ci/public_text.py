@@ -1,5 +1,7 @@
-"""The words of public text, held against the patterns of .ci/words.txt (rule of .ci/source_rules). A file may have as many matches as
-.ci/words_left.txt says, none if it is not listed there; `.ci/source_rules --lower` writes lower counts into that list and never a higher one."""
+"""The words of public text, held against the patterns of .ci/words.txt (rule of .ci/source_rules). A file may have as
+many matches as
+.ci/words_left.txt says, none if it is not listed there; `.ci/source_rules --lower` writes lower counts into that list
+and never a higher one."""
 import pathlib
 import re
 import subprocess
@@ -30,7 +32,8 @@ def header(text: str) -> Iterator[Piece]:
     """Comments, without what they quote as code."""
     for match in C_COMMENT.finditer(text):
         inside = next((one for one in match.groups() if one), "")
-        yield text.count("\n", 0, match.start()) + 1, re.sub(r"`[^`\n]*`", "`", re.sub(r"^\s*\*", "", inside, flags=re.M))
+        yield (text.count("\n", 0, match.start()) + 1,
+               re.sub(r"`[^`\n]*`", "`", re.sub(r"^\s*\*", "", inside, flags=re.M)))
 
 
 def python(text: str) -> Iterator[Piece]:
@@ -58,7 +61,8 @@ READERS = [
     (re.compile(r"bindings/python/drillmbd/.*\.py$|pkgconfig/(manual|reference)\w*(\.py)?$"), python),
     (re.compile(r"lib/.*\.[ch]$"), messages),
 ]
-FOLDERS = ["README.md", "CHANGELOG.md", "examples", "include", "bindings/cpp", "bindings/python/drillmbd", "pkgconfig", "lib"]
+FOLDERS = ["README.md", "CHANGELOG.md", "examples", "include", "bindings/cpp", "bindings/python/drillmbd", "pkgconfig",
+           "lib"]
 
 
 class Pattern:
@@ -93,7 +97,8 @@ def counted_under(name: str) -> str:
 
 def all_faults() -> dict[str, list[str]]:
     known, found = patterns(), {}
-    names = subprocess.run(["git", "ls-files", *FOLDERS], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    names = subprocess.run(["git", "ls-files", *FOLDERS], cwd=ROOT, check=True, capture_output=True,
+                           text=True).stdout.split()
     for name in names:
         read = next((reader for pattern, reader in READERS if pattern.match(name)), None)
         if read and not GENERATED.search(name) and (ROOT / name).exists():
@@ -111,7 +116,8 @@ def allowed() -> dict[str, int]:
 def planted_rules(known: list[Pattern]) -> Iterator[str]:
     """The readers find planted words, and do not find those of code and of questions."""
     samples = [(markdown, "The check\ntells it.\n", 1), (markdown, "```c\ntold\n```\nA `told` b.\n\n    told\n", 0),
-               (markdown, "What is it?\n", 0), (markdown, "It is what it is.\n", 1), (markdown, "a guide\nthe user's guide\n", 1),
+               (markdown, "What is it?\n", 0), (markdown, "It is what it is.\n", 1),
+               (markdown, "a guide\nthe user's guide\n", 1),
                (header, 'int told; /* told */ char *a = "told"; /* see `told` */\n', 1),
                (python, 'told = f"it is told {told}"  # told\nkey = "told"\n', 1),
                (messages, 'told = 1; dmb_message_set(m, "it is told", told);', 1)]
@@ -127,7 +133,8 @@ def rule() -> Iterator[str]:
     for name, faults in sorted(found.items()):
         if len(faults) > limit.get(name, 0):
             yield from faults
-            yield f"{name}: {len(faults)} matches of .ci/words.txt, allowed are {limit.get(name, 0)} (.ci/words_left.txt)"
+            yield (f"{name}: {len(faults)} matches of .ci/words.txt, allowed are {limit.get(name, 0)} "
+                   "(.ci/words_left.txt)")
 
 
 def lower() -> None:
@@ -135,5 +142,6 @@ def lower() -> None:
     found, limit = all_faults(), allowed()
     counts = {name: min(len(faults), limit.get(name, 0)) for name, faults in found.items()}
     lines = [f"{count:4} {name}" for name, count in sorted(counts.items()) if count]
-    LEFT.write_text("\n".join(["# Matches of .ci/words.txt in texts that are not revised yet. Counts only fall: .ci/source_rules --lower",
+    LEFT.write_text("\n".join(["# Matches of .ci/words.txt in texts that are not revised yet. Counts only fall: "
+                               ".ci/source_rules --lower",
                                *lines]) + "\n", encoding="utf-8")

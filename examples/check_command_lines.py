@@ -2,8 +2,8 @@
 
 usage: check_command_lines.py PROGRAM...   (those of the examples)
 
---help of programs with options tells every one and ends well; every other call here is refused: exit status above 0, a message on standard
-error that names what was wrong, nothing on standard output.
+--help of programs with options tells every one and ends well; every other call here is refused: exit status above 0, a
+message on standard error that names what was wrong, nothing on standard output.
 """
 import pathlib
 import subprocess

@@ -7,8 +7,8 @@ mean something:
     # arguments: --pipes 5 --time 0.2     what the program is called with
     # tolerance: 1e-6                     relative tolerance of the numbers with a point or exponent from here on
                                           (1e-9 without such a line)
-    # again: --threads 1                  the program is called once more with these arguments behind the others, and has
-                                          to print the same and leave the same files behind, to the byte
+    # again: --threads 1                  the program is called once more with these arguments behind the others, and
+                                          has to print the same and leave the same files behind, to the byte
 A word of the stored answer may carry its own tolerance: 0.125~1e-4 is absolute, 0.125~2% relative, and * stands for any
 word. Whole numbers and all other words must be the same. The program runs in an empty folder of its own.
 """

@@ -1,5 +1,6 @@
-"""Control design from the state space of a scene: a speed controller for the rotation of 300 m of rods that takes torsional
-waves out of the string, as against stick-slip. The gain is chosen on a reduced model and tried in a run of the scene itself. Needs numpy and scipy."""
+"""Control design from the state space of a scene: a speed controller for the rotation of 300 m of rods that takes
+torsional waves out of the string, as against stick-slip. The gain is chosen on a reduced model and tried in a run of
+the scene itself. Needs numpy and scipy."""
 import math
 
 import numpy as np
@@ -10,7 +11,8 @@ PIPES, LENGTH, END, INTEGRAL = 100, 3.0, 3.0, 40.0  # [-, m, s, N m]
 
 
 def scene(gain, kick=0.0):
-    """Axial-torsional rods on a controlled rotary drive without wall; a hump of 200 N m over 2 `kick` [s] hits the bit."""
+    """Axial-torsional rods on a controlled rotary drive without wall; a hump of 200 N m over 2 `kick` [s] hits the
+    bit."""
     model = mbd.Model()
     model.set_environment(gravity=(0.0, 0.0, 0.0))
     string = model.add_string(start_free=mbd.FREE_CYLINDRICAL)
@@ -21,7 +23,8 @@ def scene(gain, kick=0.0):
     still = model.add_time_function(mbd.Segment())
     drive = model.add_drive(part=string, component=mbd.RX, kind=mbd.DRIVE_LOAD if gain is None else mbd.DRIVE_CONTROL,
                             gain=gain or 0.0, integral_gain=0.0 if gain is None else INTEGRAL, time_function=still)
-    hump = [mbd.Segment(kind=mbd.SEGMENT_STEP, h1=sign, x0=at, x1=at + kick) for sign, at in ((1.0, 0.0), (-1.0, kick)) if kick]
+    hump = [mbd.Segment(kind=mbd.SEGMENT_STEP, h1=sign, x0=at, x1=at + kick) for sign, at in ((1.0, 0.0), (-1.0, kick))
+            if kick]
     load = model.add_load(place=mbd.station(string, PIPES - 1, 1.0), frame=mbd.FRAME_BODY, moment=(200.0, 0.0, 0.0),
                           time_function=model.add_time_function(*(hump or [mbd.Segment()])))
     torque = model.add_input(name="torque", part=drive) if gain is None else mbd.Id()  # what a controller writes
@@ -34,7 +37,8 @@ def plant():
     sim, string, torque, load = scene(None)
     modes = sim.modes(count=40)
     torsional = [i for i, mode in enumerate(modes) if mode.share[1] > 0.9]  # what feed and push shake is left out
-    inputs = [mbd.Excitation(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.EXCITATION_SETTING, torque), (mbd.EXCITATION_LOAD, load))]
+    inputs = [mbd.Excitation(kind=kind, place=mbd.station(part))
+              for kind, part in ((mbd.EXCITATION_SETTING, torque), (mbd.EXCITATION_LOAD, load))]
     outputs = [(mbd.OUTPUT_ROTATION, mbd.station(string)), (mbd.OUTPUT_ROTARY_SPEED, mbd.station(string)),
                 (mbd.OUTPUT_BIT_SPEED, mbd.station(string))]
     outputs = [(place, quantity) for quantity, place in outputs]
@@ -58,7 +62,8 @@ def main():
     impedance = section * math.sqrt(206e9 / 2.6 * 7850.0)  # [N m s] of torsional waves: reflects nothing
     gains = impedance * np.geomspace(0.1, 30.0, 60)
     best = max(gains, key=lambda gain: damping(closed(space, gain)))
-    print(f"{space.info.states} states for {PIPES} rods; impedance of the string {impedance:.1f} N m s, best gain {best:.1f}")
+    print(f"{space.info.states} states for {PIPES} rods; impedance of the string {impedance:.1f} N m s, best gain "
+          f"{best:.1f}")
     for name, gain in (("stiff", 20.0 * impedance), ("tuned", best)):
         A, ramp, h = closed(space, gain), 0.1, 0.0005
         sim, _, _, _ = scene(gain, ramp)
@@ -72,7 +77,8 @@ def main():
             run.append(sim.output("bit_speed"))
         off = max(abs(np.subtract(linear, run))) / max(np.abs(run))
         print(f"{name}: gain {gain:6.1f}, least damping {damping(A):.3f}, bit still swings by "
-              f"{100 * max(np.abs(run[-1000:])) / max(np.abs(run)):4.1f} % in the end; model off the run by {100 * off:.1f} %")
+              f"{100 * max(np.abs(run[-1000:])) / max(np.abs(run)):4.1f} % in the end; model off the run by "
+              f"{100 * off:.1f} %")
 
 
 if __name__ == "__main__":

@@ -53,7 +53,8 @@ recorder = sim.recorder([(tip, mbd.OUTPUT_DISPLACEMENT_Z, "far end, up [m]"),
                          (rotation, mbd.OUTPUT_DRIVE_FORCE, "torque at the rig [N m]"),
                          (feed, mbd.OUTPUT_DRIVE_FORCE, "push at the rig [N]")], capacity=1000)
 done = sim.run(0.5, step=1e-3, recorder=recorder,
-               progress=lambda at: print(f"\r{100 * at.fraction:3.0f} %, {at.real_time_factor:.0f} times real time", end=""))
+               progress=lambda at: print(f"\r{100 * at.fraction:3.0f} %, {at.real_time_factor:.0f} times real time",
+                                         end=""))
 print(f"\n{done.steps} steps; torque at the end {recorder.table[-1][2]:.1f} N m, energy error {sim.energy().error:.1e}")
 
 # 4. Go on twice from one state: a snapshot is bytes, a model is its description.
@@ -72,11 +73,13 @@ places = [mbd.station(string, pipe, 1.0) for pipe in range(PIPES)]
 along = [pipe + 1.0 for pipe in range(PIPES)]
 print("modes [Hz]: " + ", ".join(f"{frequency:.2f}" for frequency in modes.frequencies[:8]))
 middle = mbd.station(string, PIPES // 2, 0.5)
-response = sim.response([mbd.Excitation(kind=mbd.EXCITATION_ECCENTRICITY)], [(middle, "vibration_z"), (tip, "vibration_rx")],
+response = sim.response([mbd.Excitation(kind=mbd.EXCITATION_ECCENTRICITY)],
+                        [(middle, "vibration_z"), (tip, "vibration_rx")],
                         frequency_low=0.5, frequency_high=40.0, points=200)
 bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [(middle, "vibration_z")], [1e-6],
                              speed_low=20.0 * RPM, speed_high=300.0 * RPM, points=150)
-print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.high / RPM:.0f}" for band in bands) or "none"))
+print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.high / RPM:.0f}" for band in bands)
+                                   or "none"))
 
 # 6. When does it buckle? In the hole, pushed at its rig end.
 pushed = mbd.Model()
@@ -108,7 +111,8 @@ try:
     plots.recording(recorder, "start of drilling").savefig(folder / "run.png")
     plots.shapes(modes, places, along, 5, "modes").savefig(folder / "modes.png")
     plots.frequencies(modes, "modes").savefig(folder / "frequencies.png")
-    plots.response(response, ["middle, up [m]", "far end, turn [rad]"], "eccentric pipes").savefig(folder / "response.png")
+    plots.response(response, ["middle, up [m]", "far end, turn [rad]"],
+                   "eccentric pipes").savefig(folder / "response.png")
     plots.severity(bands.speeds, severity, bands, title="speeds to avoid").savefig(folder / "speeds.png")
     plots.buckling(shape, range(1, 13), factor, "buckling, pushed at the rig").savefig(folder / "buckling.png")
 except ImportError as error:

@@ -1,5 +1,5 @@
-"""The C++ header as Doxygen reads it, for pkgconfig/reference: declarations without their bodies, and the description of
-each: the // comment right before it or behind it, else the C function that it calls, else that of all owners."""
+"""The C++ header as Doxygen reads it, for pkgconfig/reference: declarations without their bodies, and the description
+of each: the // comment right before it or behind it, else the C function that it calls, else that of all owners."""
 import re
 
 OWNERS = (  # of a class with a handle: pattern of the declaration, what it does
@@ -135,7 +135,8 @@ class CppWriter:
         paragraphs = re.split(r"^//\s*$", first, flags=re.M)
         code = "".join(line[2:] + "\n" for line in first.splitlines() if line.startswith("//     "))
         told = [self.words(part.strip().splitlines()) for part in paragraphs if not part.strip().startswith("//     ")]
-        self.out.append(f"/** @file drillmbd.hpp\n * {told[0]}\n@code{{.cpp}}\n{code}@endcode\n" + "\n\n".join(told[1:]) + " */\n")
+        self.out.append(f"/** @file drillmbd.hpp\n * {told[0]}\n@code{{.cpp}}\n{code}@endcode\n" + "\n\n".join(told[1:])
+                        + " */\n")
         private = []  # of each open scope: in a part that is not public
         for kind, part, body in items(text[len(first):]):
             if kind == "access":

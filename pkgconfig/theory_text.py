@@ -14,14 +14,16 @@ import re
 EQUATION = re.compile(r"^\$\$(?P<tex>(?:(?!\$\$|\n[ \t]*\n).)+)\$\$[ \t]*\{#(?P<name>eq:[^}\s]*)\}[ \t]*$", re.M | re.S)
 EQUATION_NAME = re.compile(r"eq:[a-z0-9]+(?:-[a-z0-9]+)*\.[a-z0-9]+(?:-[a-z0-9]+)*")
 EQUATION_CITED = re.compile(r"(?<![\w#:.])eq:[a-z0-9-]+\.[a-z0-9-]*[a-z0-9]")
-FIGURE = re.compile(r"^!\[(?P<caption>(?:[^\]\\]|\\.|\](?!\())+)\]\((?P<path>[^)\s]+)\)\{#(?P<name>fig:[^}\s]*)\}[ \t]*$", re.M)
+FIGURE = re.compile(r"^!\[(?P<caption>(?:[^\]\\]|\\.|\](?!\())+)\]\((?P<path>[^)\s]+)\)\{#(?P<name>fig:[^}\s]*)\}[ "
+                    r"\t]*$", re.M)
 FIGURE_CITED = re.compile(r"(?<![\w#:.])fig:[a-z0-9-]*[a-z0-9]")
 WORK_CITED = re.compile(r"(?<![\w`\\])@([A-Za-z][\w:-]*\w)")
 LINK = re.compile(r"(?<!!)\[[^\]\n]*(?:\n[^\]\n]+)*\]\((?P<target>[^)\s]+)\)")
 PLACE = re.compile(r"`(?P<path>[\w./-]+)`\s*(?:\((?P<names>[^)]*)\))?")
 SOURCE = re.compile(r"`((?:lib|include|bindings|tests|examples|pkgconfig)/[\w./-]*\w)`")
 TEST = re.compile(r"`((?:unit|physics|contract|relations|python|example|fuzz|golden|abi|fmi)_\w+)`")
-SOURCES = (("lib", ("c", "h")), ("include", ("h",)), ("tests", ("c", "h", "py", "md")), ("bindings", ("c", "h", "hpp", "py")),
+SOURCES = (("lib", ("c", "h")), ("include", ("h",)), ("tests", ("c", "h", "py", "md")),
+           ("bindings", ("c", "h", "hpp", "py")),
            ("examples", ("c", "py", "md")))
 DRAWING = "drawing"  # the module that the scripts of figures share
 
@@ -219,7 +221,8 @@ def work_faults(manual):
     yield from (f"{where}: references.bib has no work {key}" for key, where in sorted(cited.items())
                 if key not in manual.works)
     yield from (f"references.bib: {key} is cited by no chapter" for key in manual.works if key not in cited)
-    yield from (f"references.bib: {key} stands twice" for key in sorted(set(manual.works)) if manual.works.count(key) > 1)
+    yield from (f"references.bib: {key} stands twice" for key in sorted(set(manual.works))
+                if manual.works.count(key) > 1)
 
 
 def link_faults(manual):
@@ -228,7 +231,8 @@ def link_faults(manual):
             target = match.group("target")
             path = target.split("#")[0]
             if not target.startswith("https://") and path and path not in ["README.md", *manual.listed]:
-                yield f"{chapter.line(match.start())}: link to {target}, which is no chapter; name other files as `code`"
+                yield (f"{chapter.line(match.start())}: link to {target}, which is no chapter; name other files as "
+                       "`code`")
 
 
 CHECKS = (("the index lists every chapter", chapter_faults),

@@ -1,8 +1,8 @@
-"""Builds the package for pip (PEP 517, PEP 660) with nothing but Python, so that it installs without network, setuptools
-or wheel. In the source tree it builds the library and the binary of co-simulation units by CMake (preset user, which
-repeats no work), and both go into the package, which then needs no other. The environment variable DRILLMBD_BUNDLE
-names another libdrillmbd.so to be taken, or "none": the package then looks for an installed library, as it does
-where the sources of the library or CMake are absent."""
+"""Builds the package for pip (PEP 517, PEP 660) with nothing but Python, so that it installs without network,
+setuptools or wheel. In the source tree it builds the library and the binary of co-simulation units by CMake (preset
+user, which repeats no work), and both go into the package, which then needs no other. The environment variable
+DRILLMBD_BUNDLE names another libdrillmbd.so to be taken, or "none": the package then looks for an installed library, as
+it does where the sources of the library or CMake are absent."""
 import ast
 import base64
 import hashlib
@@ -46,10 +46,12 @@ def built():
         print("drillmbd: without a library of its own: CMake or the sources of the library are absent", file=sys.stderr)
         return None
     for command in (["cmake", "--preset", "user"],
-                    ["cmake", "--build", "build/user", "--target", "drillmbd", "drillmbd_fmu", "--parallel", str(os.cpu_count() or 1)]):
+                    ["cmake", "--build", "build/user", "--target", "drillmbd", "drillmbd_fmu", "--parallel",
+                     str(os.cpu_count() or 1)]):
         done = subprocess.run(command, cwd=root, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0:
-            raise SystemExit(f"{done.stdout[-4000:]}\n{' '.join(command)} in {root} failed. DRILLMBD_BUNDLE=FILE takes a library "
+            raise SystemExit(f"{done.stdout[-4000:]}\n{' '.join(command)} in {root} failed. DRILLMBD_BUNDLE=FILE takes "
+                             "a library "
                              "that is built, DRILLMBD_BUNDLE=none an installed one")
     files = (root / "build" / "user" / name for name in ("libdrillmbd.so", "libdrillmbd.dylib", "drillmbd.dll"))
     return next(file for file in files if file.exists())
@@ -60,13 +62,15 @@ def named(name):
     places = [pathlib.Path(os.environ.get("PWD", ".")), HERE.parents[1], pathlib.Path.cwd()]
     library = next((place / name for place in places if (place / name).is_file()), None)
     if library is None:
-        raise SystemExit(f"DRILLMBD_BUNDLE = {name}, must be the file of a library that is built, or none; without it, the "
+        raise SystemExit(f"DRILLMBD_BUNDLE = {name}, must be the file of a library that is built, or none; without it, "
+                         "the "
                          "library is built")
     return library
 
 
 def bundled():
-    """The library that goes into the package, and the binary of units beside it: pairs of a name in the package and a file."""
+    """The library that goes into the package, and the binary of units beside it: pairs of a name in the package and a
+    file."""
     name = os.environ.get("DRILLMBD_BUNDLE")
     library = None if name == "none" else named(name) if name else built()
     if library is None:
@@ -100,7 +104,8 @@ def write_wheel(folder, contents, tag):
     scripts = "".join(f"{name} = {target}\n" for name, target in project()["project.scripts"].items())
     pure = "true" if tag.endswith("any") else "false"
     contents = [*contents, (f"{info}/METADATA", metadata().encode()),
-                (f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: drillmbd\nRoot-Is-Purelib: {pure}\nTag: {tag}\n".encode()),
+                (f"{info}/WHEEL",
+                 f"Wheel-Version: 1.0\nGenerator: drillmbd\nRoot-Is-Purelib: {pure}\nTag: {tag}\n".encode()),
                 (f"{info}/entry_points.txt", f"[console_scripts]\n{scripts}".encode())]
     record = ""
     for path, data in contents:

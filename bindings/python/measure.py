@@ -1,4 +1,5 @@
-"""Prints what Python adds to a step and whether create-run-destroy cycles grow. usage: measure.py [CYCLES, default 10000]"""
+"""Prints what Python adds to a step and whether create-run-destroy cycles grow. usage: measure.py [CYCLES, default
+10000]"""
 import ctypes
 import gc
 import resource

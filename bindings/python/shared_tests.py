@@ -1,4 +1,5 @@
-"""Set-up that the tests share: packages that a test cannot do without, a folder with a scene, the command in this process."""
+"""Set-up that the tests share: packages that a test cannot do without, a folder with a scene, the command in this
+process."""
 import contextlib
 import importlib
 import io
@@ -12,8 +13,8 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE), "OMP_NUM_THREADS": "1"}
-# Pieces of scenes: eight eccentric pipes with a bit, the drives of a rig head that stays in place and turns, its rotation, and a worn gear that
-# follows it; all in one hole.
+# Pieces of scenes: eight eccentric pipes with a bit, the drives of a rig head that stays in place and turns, its
+# rotation, and a worn gear that follows it; all in one hole.
 SHORT_STRING = """[[string]]
 name = "main"
 [[string.pipes]]

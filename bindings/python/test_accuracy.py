@@ -44,8 +44,8 @@ def frequency_error(elements, curvature):
 
 
 def tip_under_pull(pull):
-    """Sideways deflection of one element of 3 m, 50/39 mm, against F/(N k) (k L - tanh k L) of the beam, k^2 = N/EI; without
-    shear and stretch, which that leaves out (stiffnesses 1e4 times as large)."""
+    """Sideways deflection of one element of 3 m, 50/39 mm, against F/(N k) (k L - tanh k L) of the beam, k^2 = N/EI;
+    without shear and stretch, which that leaves out (stiffnesses 1e4 times as large)."""
     length, force = 3.0, 1.0
     bending = E * math.pi / 64 * (0.05**4 - 0.039**4)
     axial = 1e4 * E * math.pi / 4 * (0.05**2 - 0.039**2)
@@ -85,7 +85,8 @@ def restitution_error():
 
 
 def energy_of_coarse_bounces():
-    """Largest energy of a rod with play in its joint over 1 s of bounces at 2 ms a step, far from resolved, less 1 J of the start."""
+    """Largest energy of a rod with play in its joint over 1 s of bounces at 2 ms a step, far from resolved, less 1 J of
+    the start."""
     model = mbd.Model()
     model.set_environment(gravity=(0.0, 0.0, 0.0))
     rod = model.add_body(mass=12.0, inertia=(0.02, 1.0, 1.0, 0, 0, 0))
@@ -142,10 +143,12 @@ def deflection_error():
 
 
 def oscillation(ratio, radius, place, speed, steps):
-    """Course of (x, v/w) of 1 kg on a spring, w = ratio/h, by steps h of 1 ms; place and speed are those of x and v/w at the start, in 0.1 mm."""
+    """Course of (x, v/w) of 1 kg on a spring, w = ratio/h, by steps h of 1 ms; place and speed are those of x and v/w
+    at the start, in 0.1 mm."""
     model, w = mbd.Model(), ratio / 1e-3
     model.set_environment(gravity=(0.0, 0.0, 0.0))
-    body = model.add_body(mass=1.0, inertia=(1.0, 1.0, 1.0, 0, 0, 0), position=(1e-4 * place, 0.0, 0.0), velocity=(1e-4 * speed * w, 0, 0, 0, 0, 0))
+    body = model.add_body(mass=1.0, inertia=(1.0, 1.0, 1.0, 0, 0, 0), position=(1e-4 * place, 0.0, 0.0),
+                          velocity=(1e-4 * speed * w, 0, 0, 0, 0, 0))
     model.add_spring(place_b=body, offset_a=(-10.0, 0.0, 0.0), free_length=10.0, stiffness=w * w)
     model.compile()
     sim, course = model.sim(spectral_radius=radius), []
@@ -156,8 +159,8 @@ def oscillation(ratio, radius, place, speed, steps):
 
 
 def largest_energy(ratio, radius):
-    """Over the initial one, of all initial states c: |S c|^2/|c|^2, S = [a b] of two courses, is at most (p + r + sqrt((p - r)^2 + 4 q^2))/2 with
-    p = a.a, q = a.b, r = b.b. The steps end before rounding is all that is left."""
+    """Over the initial one, of all initial states c: |S c|^2/|c|^2, S = [a b] of two courses, is at most (p + r +
+    sqrt((p - r)^2 + 4 q^2))/2 with p = a.a, q = a.b, r = b.b. The steps end before rounding is all that is left."""
     most, steps = 1.0, 6 if radius == 0.0 else 15 if radius < 0.6 else 60
     for a, b in zip(oscillation(ratio, radius, 1.0, 0.0, steps), oscillation(ratio, radius, 0.0, 1.0, steps)):
         p, q, r = (x[0] * y[0] + x[1] * y[1] for x, y in ((a, a), (a, b), (b, b)))
@@ -202,7 +205,8 @@ class AccuracyTest(unittest.TestCase):
         text = " ".join(LIMITS.read_text(encoding="utf-8").split())
         wanted = ", ".join("{:.3g}, {:.3g} and {:.3g} {} {:g}".format(
             *(largest_energy(ratio, radius) for ratio in (3.0, 10.0, 100.0)),
-            "times the initial energy with spectral radius" if radius == 0.0 else "with", radius) for radius in (0.0, 0.5, 0.8, 0.95))
+            "times the initial energy with spectral radius" if radius == 0.0 else "with", radius)
+                           for radius in (0.0, 0.5, 0.8, 0.95))
         self.assertIn(wanted + ", and never above it with 1 (", text)
         self.assertLess(max(largest_energy(ratio, 1.0) for ratio in (3.0, 10.0, 100.0)), 1.0 + 1e-6)
 

@@ -33,7 +33,8 @@ class AnswersTest(unittest.TestCase):
     def test_arrays(self):
         pose = self.sim.pose(mbd.station(self.string, 9, 1.0))
         self.assertIsInstance(pose.position, np.ndarray)
-        self.assertEqual((pose.position.shape, pose.rotation.shape, pose.position.dtype), ((3,), (3, 3), np.dtype("float64")))
+        self.assertEqual((pose.position.shape, pose.rotation.shape, pose.position.dtype),
+                         ((3,), (3, 3), np.dtype("float64")))
         np.testing.assert_allclose(pose.rotation @ pose.rotation.T, np.eye(3), atol=1e-14)
         self.assertAlmostEqual(np.linalg.det(pose.rotation), 1.0)
         start = self.model.hole(0.0)
@@ -91,8 +92,10 @@ class AnswersTest(unittest.TestCase):
             self.sim.drive("bit")
 
     def test_recorder(self):
-        recorder = self.sim.recorder([("table", "drive_force"), ("bit", "position_x"), "bit_speed", (self.string, "rotation")], 10)
-        self.assertEqual(recorder.columns, ["time [s]", "drive_force of drive table [N m]", "position_x of bit bit [m]", "bit_speed [rad/s]",
+        recorder = self.sim.recorder([("table", "drive_force"), ("bit", "position_x"), "bit_speed",
+                                      (self.string, "rotation")], 10)
+        self.assertEqual(recorder.columns, ["time [s]", "drive_force of drive table [N m]", "position_x of bit bit [m]",
+                                            "bit_speed [rad/s]",
                                             "rotation of string rods pipe 0 at 0 [rad]"])
         recorder.take()
         self.assertEqual(recorder.table[0, 1], self.sim.drive("table").force)
@@ -125,10 +128,12 @@ class AnswersTest(unittest.TestCase):
         profile = self.sim.profile(self.string, 5)
         self.assertEqual(set(dict(profile)), set(profile._asdict()))
         rows = self.sim.torque_drag(depths=[5.0, 10.0])
-        self.assertEqual(rows._asdict()["torque"], [row[k].torque for row in rows.rows for k in range(len(rows.operations))])
+        self.assertEqual(rows._asdict()["torque"],
+                         [row[k].torque for row in rows.rows for k in range(len(rows.operations))])
         recorder = self.sim.recorder([("table", "drive_force"), "bit_speed"], capacity=2)
         recorder.take()
-        self.assertEqual(list(recorder._asdict()), ["time [s]", "drive_force of drive table [N m]", "bit_speed [rad/s]"])
+        self.assertEqual(list(recorder._asdict()), ["time [s]", "drive_force of drive table [N m]",
+                                                    "bit_speed [rad/s]"])
 
     def test_outputs_alike_in_recorder_and_window(self):
         window = self.sim.window(["bit_speed", ("table", "drive_force")])

@@ -1,4 +1,5 @@
-"""Tests of the catalogue: its numbers against closed formulas and published strengths, names as people write them, scene files, the command."""
+"""Tests of the catalogue: its numbers against closed formulas and published strengths, names as people write them,
+scene files, the command."""
 import contextlib
 import io
 import math
@@ -12,11 +13,16 @@ from drillmbd.scene import catalogue, units
 
 LBF, FT_LBF, PSI = 4.4482216152605, 1.3558179483314, 6894.757293168
 #: API RP 7G, Tables 2: tension [lbf] and torsional yield [ft lbf] of new E75 pipe by size and nominal weight.
-E75 = {"2 3/8 in 4.85": (97817, 4763), "2 3/8 in 6.65": (138214, 6250), "2 7/8 in 6.85": (135902, 8083), "2 7/8 in 10.40": (214344, 11554),
-       "3 1/2 in 9.50": (194264, 14146), "3 1/2 in 13.30": (271569, 18551), "3 1/2 in 15.50": (322775, 21086), "4 in 11.85": (230755, 19474),
-       "4 in 14.00": (285359, 23288), "4 in 15.70": (324118, 25810), "4 1/2 in 13.75": (270034, 25907), "4 1/2 in 16.60": (330558, 30807),
-       "4 1/2 in 20.00": (412358, 36901), "4 1/2 in 22.82": (471239, 40912), "5 in 16.25": (328073, 35044), "5 in 19.50": (395595, 41167),
-       "5 in 25.60": (530144, 52257), "5 1/2 in 19.20": (372181, 44074), "5 1/2 in 21.90": (437116, 50710), "5 1/2 in 24.70": (497222, 56574),
+E75 = {"2 3/8 in 4.85": (97817, 4763), "2 3/8 in 6.65": (138214, 6250), "2 7/8 in 6.85": (135902, 8083),
+       "2 7/8 in 10.40": (214344, 11554),
+       "3 1/2 in 9.50": (194264, 14146), "3 1/2 in 13.30": (271569, 18551), "3 1/2 in 15.50": (322775, 21086),
+       "4 in 11.85": (230755, 19474),
+       "4 in 14.00": (285359, 23288), "4 in 15.70": (324118, 25810), "4 1/2 in 13.75": (270034, 25907),
+       "4 1/2 in 16.60": (330558, 30807),
+       "4 1/2 in 20.00": (412358, 36901), "4 1/2 in 22.82": (471239, 40912), "5 in 16.25": (328073, 35044),
+       "5 in 19.50": (395595, 41167),
+       "5 in 25.60": (530144, 52257), "5 1/2 in 19.20": (372181, 44074), "5 1/2 in 21.90": (437116, 50710),
+       "5 1/2 in 24.70": (497222, 56574),
        "6 5/8 in 25.20": (489464, 70580), "6 5/8 in 27.70": (534198, 76295)}
 SCENE = """{head}
 [hole]
@@ -60,7 +66,8 @@ def strengths(values):
 def pipes_of(text, head="", limits="", folder="."):
     """The scene, the keys of its pipes, and what was remarked."""
     made = scene.loads(SCENE.format(head=head, pipes=text, limits=limits), folder=folder)
-    return made, next(call[1][1] for call in made.model.calls if call[0] == "add_pipes"), [one.text for one in made.remarks]
+    return made, next(call[1][1] for call in made.model.calls
+                      if call[0] == "add_pipes"), [one.text for one in made.remarks]
 
 
 def said(*words):
@@ -79,8 +86,10 @@ class NumbersTest(unittest.TestCase):
         rows = [one for one in self.names.of("pipe") if "plain_end_mass" in one.values]
         self.assertEqual({one.name for one in rows}, set(E75))
         for one in rows:
-            self.assertAlmostEqual(strengths(one.values)[2] / units.parse(one.values["plain_end_mass"], "kg/m"), 1.0, delta=0.003)
-            nominal = units.parse(one.name.split()[-1] + " lb/ft", "kg/m")  # with a threaded joint of old: more than the body's
+            self.assertAlmostEqual(strengths(one.values)[2] / units.parse(one.values["plain_end_mass"], "kg/m"), 1.0,
+                                   delta=0.003)
+            # with a threaded joint of old: more than the body's
+            nominal = units.parse(one.name.split()[-1] + " lb/ft", "kg/m")
             self.assertTrue(0.75 < strengths(one.values)[2] / nominal < 1.0, one.name)
 
     def test_strengths(self):
@@ -96,7 +105,8 @@ class NumbersTest(unittest.TestCase):
     def test_premium(self):
         new, worn = (self.names.pipe(f"5 in 19.50 S135{word}").values for word in (" new", " premium"))
         self.assertEqual(new, self.names.pipe("5 in 19.50 S135").values)
-        walls = [units.parse(one["outer_diameter"], "m") - units.parse(one["inner_diameter"], "m") for one in (new, worn)]
+        walls = [units.parse(one["outer_diameter"], "m") - units.parse(one["inner_diameter"], "m")
+                 for one in (new, worn)]
         self.assertAlmostEqual(walls[1] / walls[0], 0.8, delta=1e-6)
         tension, torque, _ = strengths(worn)  # API RP 7G, Table 4
         self.assertAlmostEqual(tension / (560764 * LBF), 1.0, delta=1e-4)
@@ -109,7 +119,8 @@ class NumbersTest(unittest.TestCase):
         for one in self.names.of("collar"):  # a bore below half the outside, 100 ksi from 7 in
             outer, inner = (units.parse(one.values[key], "m") for key in ("outer_diameter", "inner_diameter"))
             self.assertTrue(0.0 < inner < 0.5 * outer)
-            self.assertAlmostEqual(units.parse(one.values["yield_strength"], "Pa") / PSI, 100e3 if outer >= 0.1778 else 110e3, delta=1.0)
+            self.assertAlmostEqual(units.parse(one.values["yield_strength"], "Pa") / PSI,
+                                   100e3 if outer >= 0.1778 else 110e3, delta=1.0)
 
     def test_rods_are_their_names(self):
         for one in self.names.of("pipe"):
@@ -128,12 +139,14 @@ class NamesTest(unittest.TestCase):
             self.assertEqual(self.names.pipe(spelled).values, self.names.pipe("5 in 19.50 S135").values)
         for spelled in ("4-1/2in 16.6 E75", "4½ in 16.60 E-75", "4.5 in 16.6 e75"):
             self.assertEqual(self.names.pipe(spelled).values, self.names.pipe("4 1/2 in 16.60 E75").values)
-        for spelled in ("phi 73 x 6.5", "φ73×6.5", "Φ 73*6,5 mm", "73 mm x 6.5 mm", "直径 73 x 6.5", "73 x 6.5 mm", "7.3 cm x 0.65"):
+        for spelled in ("phi 73 x 6.5", "φ73×6.5", "Φ 73*6,5 mm", "73 mm x 6.5 mm", "直径 73 x 6.5", "73 x 6.5 mm",
+                        "7.3 cm x 0.65"):
             values = self.names.pipe(spelled).values
             self.assertAlmostEqual(units.parse(values["outer_diameter"], "m"), 0.073, delta=1e-12)
             self.assertAlmostEqual(units.parse(values["inner_diameter"], "m"), 0.060, delta=1e-12)
         for spelled in ("2 7/8 in x 0.362 in", '2 7/8" x 0.362"', "phi 2 7/8 in x 0.362"):  # one unit holds for both
-            self.assertAlmostEqual(units.parse(self.names.pipe(spelled).values["inner_diameter"], "m"), 2.151 * 0.0254, delta=1e-9)
+            self.assertAlmostEqual(units.parse(self.names.pipe(spelled).values["inner_diameter"], "m"), 2.151 * 0.0254,
+                                   delta=1e-9)
 
     def test_grades_of_rods(self):
         self.assertEqual(units.parse(self.names.pipe("phi 73 x 7 780 MPa").values["yield_strength"], "Pa"), 780e6)
@@ -144,9 +157,11 @@ class NamesTest(unittest.TestCase):
         self.assertNotIn("R780", unknown.text(["yield_strength"]))
 
     def test_refused(self):
-        for name, part in (("5 in 19.4 S135", "did you mean 5 in 16.25 or 5 in 19.50"), ("5 in 19.5 S136", "did you mean S135"),
+        for name, part in (("5 in 19.4 S135", "did you mean 5 in 16.25 or 5 in 19.50"),
+                           ("5 in 19.5 S136", "did you mean S135"),
                            ("73x6.5", "phi 73 x 6.5"), ("phi 73 x 59", "wall of 59 mm, which must be below a third"),
-                           ("phi 73 x 0", "wall of 0 mm"), ("rubbish", "lists the names"), ("phi 73 x 6.5 x 1500", "must be a grade"),
+                           ("phi 73 x 0", "wall of 0 mm"), ("rubbish", "lists the names"),
+                           ("phi 73 x 6.5 x 1500", "must be a grade"),
                            ("phi 73 x 6.5 780", "as 780 MPa"), ("", "in no catalogue"), ("phi 73", "phi 73 x"),
                            ("8 x 2 13/16", "collar 8 x 2 13/16"), ("phi 1,000 x 5", "may be 1000 mm or 1.000 mm")):
             with self.assertRaisesRegex(catalogue.CatalogueError, part):
@@ -158,7 +173,8 @@ class NamesTest(unittest.TestCase):
 
 class SceneTest(unittest.TestCase):
     def test_keys_of_the_file_come_first(self):
-        made, pipes, remarks = pipes_of('pipe = "5 in 19.50 S135"\ninner_diameter = "100 mm"', limits='rig = "Fletcher LHD"\npush = "50 kN"')
+        made, pipes, remarks = pipes_of('pipe = "5 in 19.50 S135"\ninner_diameter = "100 mm"',
+                                        limits='rig = "Fletcher LHD"\npush = "50 kN"')
         self.assertEqual((pipes["outer_diameter"], pipes["inner_diameter"]), (0.127, 0.1))
         self.assertAlmostEqual(pipes["yield_strength"] / (135e3 * PSI), 1.0, delta=1e-12)
         self.assertEqual(made.limits["push"], 50e3)
@@ -175,7 +191,8 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(remarks, [])
 
     def test_refused_by_line(self):
-        for text, part in (('pipe = "5 in 19.4"\ninner_diameter = "100 mm"', r"scene:9: string\[0\].pipes\[0\].pipe = \"5 in 19.4\": is in no"),
+        for text, part in (('pipe = "5 in 19.4"\ninner_diameter = "100 mm"',
+                            r"scene:9: string\[0\].pipes\[0\].pipe = \"5 in 19.4\": is in no"),
                            ("pipe = 3", "in quotes")):
             with self.assertRaisesRegex(scene.SceneError, part) as caught:
                 pipes_of(text)
@@ -190,16 +207,22 @@ class SceneTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "own.toml")
             file.write_text(OWN, encoding="utf-8")
-            made, pipes, remarks = pipes_of('pipe = "phi 73 mine R780"', 'catalogue = "own.toml"', 'rig = "ZDY4000S"', folder)
-            self.assertEqual([pipes[key] for key in ("inner_diameter", "joint_length", "yield_strength")], [0.059, 0.3, 520e6])
+            made, pipes, remarks = pipes_of('pipe = "phi 73 mine R780"', 'catalogue = "own.toml"', 'rig = "ZDY4000S"',
+                                            folder)
+            self.assertEqual([pipes[key] for key in ("inner_diameter", "joint_length", "yield_strength")],
+                             [0.059, 0.3, 520e6])
             self.assertEqual(made.limits, {"torque": 4e3, "push": 100e3})
             self.assertIn("own.toml, no source given; certificate 12", remarks[0])
             self.assertIn("pull is not known", remarks[1])
-            self.assertEqual(pipes_of('pipe = "phi 89 x 5 R780"', 'catalogue = ["own.toml"]', folder=folder)[1]["yield_strength"], 520e6)
+            self.assertEqual(pipes_of('pipe = "phi 89 x 5 R780"', 'catalogue = ["own.toml"]',
+                                      folder=folder)[1]["yield_strength"], 520e6)
             self.assertIn("phi 73 mine", said("catalogue", "mine", "--file", str(file))[1])
-            for old, new, part in (("yield_strength", "yield_stress", "unknown key yield_stress; did you mean yield_strength"),
-                                   ("520 MPa", "520 mm", "R780: yield_strength"), ('name = "R780"', "", "without a name"),
-                                   ("[[rig]]", "[[rigs]]", "unknown table rigs; did you mean rig"), ("[[rig]]", "[[rig", "no TOML")):
+            for old, new, part in (("yield_strength", "yield_stress",
+                                    "unknown key yield_stress; did you mean yield_strength"),
+                                   ("520 MPa", "520 mm", "R780: yield_strength"),
+                                   ('name = "R780"', "", "without a name"),
+                                   ("[[rig]]", "[[rigs]]", "unknown table rigs; did you mean rig"),
+                                   ("[[rig]]", "[[rig", "no TOML")):
                 file.write_text(OWN.replace(old, new), encoding="utf-8")
                 with self.assertRaisesRegex(scene.SceneError, "own.toml: .*" + part):
                     pipes_of('pipe = "phi 73 x 7"', 'catalogue = "own.toml"', folder=folder)
@@ -211,7 +234,8 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(status, 0)
         for one in catalogue.Catalogue().of(*catalogue.KINDS):
             self.assertIn(one.name, text)
-        self.assertRegex(said("catalogue", "5 in")[1], r"5 in 19.50 +outer_diameter 5 in, inner_diameter 4.276 in, plain_end_mass 17.93 lb/ft +\[1\]")
+        self.assertRegex(said("catalogue", "5 in")[1],
+                         r"5 in 19.50 +outer_diameter 5 in, inner_diameter 4.276 in, plain_end_mass 17.93 lb/ft +\[1\]")
         self.assertNotIn("5 1/2", said("catalogue", "5 in")[1])
         self.assertEqual(said("catalogue", "Fletchr LHD")[0], 2)
 

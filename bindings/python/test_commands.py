@@ -1,4 +1,5 @@
-"""Tests of all commands alike: on every shipped scene, with the same warnings, statuses and summaries, after Ctrl-C and after failures."""
+"""Tests of all commands alike: on every shipped scene, with the same warnings, statuses and summaries, after Ctrl-C and
+after failures."""
 import importlib.util
 import json
 import pathlib
@@ -15,16 +16,21 @@ from test_command import SCENE
 
 needs("numpy")
 ROOT = HERE.parents[1]
-SHIPPED = [*sorted((ROOT / "examples" / "scenes").glob("*.toml")), *sorted((ROOT / "examples" / "failure_probability").glob("*.toml"))]
+SHIPPED = [*sorted((ROOT / "examples" / "scenes").glob("*.toml")),
+           *sorted((ROOT / "examples" / "failure_probability").glob("*.toml"))]
 #: Short settings in the place of those of the shipped scenes.
-SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "points = 5"), (r'"2 s"(?=\s*#? ?\n|$)', '"2 s"'),
+SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "points = 5"),
+         (r'"2 s"(?=\s*#? ?\n|$)', '"2 s"'),
          (r'(?m)^from = "2 s"', 'from = "5 ms"'),
          # test_command.py follows the paths of buckling
          (r"(\[buckling\].*\nscale = .*\n)(?!follow)", r"\1follow = false\n"))
-COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",), ("buckle",),
-            ("torque-drag", "--depths", "2"), ("stuck", "--pull", "20 kN"), ("rod-by-rod",), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
+COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",),
+            ("buckle",),
+            ("torque-drag", "--depths", "2"), ("stuck", "--pull", "20 kN"), ("rod-by-rod",),
+            ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
             ("probability", "--samples", "1", "--method", "monte-carlo", "--engine", "serial"))
-LOOSE = SCENE.replace('[[drive]]\nname = "feed"\ntime_function = "0 m/s"\n', "")  # nothing holds the string along its axis
+# nothing holds the string along its axis
+LOOSE = SCENE.replace('[[drive]]\nname = "feed"\ntime_function = "0 m/s"\n', "")
 HEAVY = SCENE.replace("count = 8", "count = 3000").replace('end = "20 ms"', 'end = "200 s"') + """[buckling]
 scale = "all"
 [variability]
@@ -79,36 +85,47 @@ class ShippedTest(FolderTest):
             except ImportError:
                 pass
             unit = self.folder / "x.fmu"
-            process = subprocess.run([*COMMAND, "fmu", short, "-o", unit], capture_output=True, text=True, env=ENVIRONMENT)
+            process = subprocess.run([*COMMAND, "fmu", short, "-o", unit], capture_output=True, text=True,
+                                     env=ENVIRONMENT)
             if process.returncode == 2 and "is not there; build" in process.stderr:
                 continue  # a build without it
             self.assertEqual((process.returncode, process.stderr), (0, ""))
 
     def test_warnings_have_a_cause(self):
-        """Each cause of a warning, alone, is warned of; reference rig: of none, its load of the bit ends before the run does."""
+        """Each cause of a warning, alone, is warned of; reference rig: of none, its load of the bit ends before the run
+        does."""
         from drillmbd import scene
         from drillmbd.scene.warned import warnings_of
         path = next(path for path in SHIPPED if path.stem == "reference_rig")
         text = path.read_text(encoding="utf-8")
         self.assertEqual(warnings_of(scene.loads(text)), [])
-        for old, new, told in (('eccentricity = "1 mm"', "", "no eccentricity"), ('damping_time = "0.1 ms"', "damping_time = 0", "no material damping"),
-                               ('h1 = "2960 N"', "h1 = 0", "no load on the bit"), ('h1 = "200 rpm"', "h1 = 0", "no rotation"),
-                               ('"94 mm"', '"94 m"', "diameter = 94 m, which is unusual"), ('h1 = "2960 N"', 'h1 = "300 kg"', "a unit of mass: its weight is taken"),
+        for old, new, told in (('eccentricity = "1 mm"', "", "no eccentricity"),
+                               ('damping_time = "0.1 ms"', "damping_time = 0", "no material damping"),
+                               ('h1 = "2960 N"', "h1 = 0", "no load on the bit"),
+                               ('h1 = "200 rpm"', "h1 = 0", "no rotation"),
+                               ('"94 mm"', '"94 m"', "diameter = 94 m, which is unusual"),
+                               ('h1 = "2960 N"', 'h1 = "300 kg"', "a unit of mass: its weight is taken"),
                                ('length = "1 m"', 'length = "10 m"', "divided into")):
             changed = text.replace(old, new).replace(old.replace('"', '"-', 1), new)
             found = warnings_of(scene.loads(changed))
             self.assertTrue(any(told in one for one in found), (old, found))
         inline = '[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n[[bit]]\nload = "300 kg"\n'
-        self.assertTrue(any('load = "300 kg": has \'kg\', a unit of mass: its weight is taken' in one for one in warnings_of(scene.loads(inline))))
-        rock = text.replace('h1 = "2960 N"', "h1 = 0").replace('h1 = "-2960 N"', "h1 = 0").replace('mass = "5 kg"\n', 'mass = "5 kg"\nrock_law = "regenerative"\n')
+        self.assertTrue(any('load = "300 kg": has \'kg\', a unit of mass: its weight is taken' in one
+                            for one in warnings_of(scene.loads(inline))))
+        rock = text.replace('h1 = "2960 N"', "h1 = 0").replace('h1 = "-2960 N"',
+                                                               "h1 = 0").replace('mass = "5 kg"\n',
+                                                                                 'mass = "5 kg"\nrock_law = '
+                                                                                 '"regenerative"\n')
         self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
 
     def test_load_that_nothing_bears(self):
         """A load on the bit without a drive along the string pushes it out of the hole, in `run` with status 0."""
         from drillmbd import scene
         from drillmbd.scene.warned import warnings_of
-        text = ('hole = {diameter = "94 mm"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\nbit = {load = "push"}\n'
-                'time_function = [{name = "push", segment = {h0 = "10 kN"}}, {name = "feed", segment = {h0 = "10 mm/s"}}]\n%s')
+        text = ('hole = {diameter = "94 mm"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\nbit = {load = '
+                '"push"}\n'
+                'time_function = [{name = "push", segment = {h0 = "10 kN"}}, {name = "feed", segment = {h0 = "10 '
+                'mm/s"}}]\n%s')
         for drive, found in (("", 1), ('drive = {component = "x", time_function = "feed"}\n', 0)):
             told = [one for one in warnings_of(scene.loads(text % drive if drive else (text % "").replace(
                 ', {name = "feed", segment = {h0 = "10 mm/s"}}', ""))) if "bears the load" in one]
@@ -121,12 +138,16 @@ class NonsenseTest(FolderTest):
 
     def test_options(self):
         body = self.write("body.toml", '[[body]]\nmass = "3 kg"\n[run]\nend = "1 ms"\nstep = "1 ms"\n')
-        for told, *words in (("more than 1e+12: give a longer step", "run", "--step", "1e-300 s"), ("rows of 2 numbers", "run", "--until", "1e7 s"),
-                             ("must be a length", "torque-drag", "--depths", "\u00b2"), ("must be >= 0", "torque-drag", "--block-weight", "-1 kN"),
+        for told, *words in (("more than 1e+12: give a longer step", "run", "--step", "1e-300 s"),
+                             ("rows of 2 numbers", "run", "--until", "1e7 s"),
+                             ("must be a length", "torque-drag", "--depths", "\u00b2"),
+                             ("must be >= 0", "torque-drag", "--block-weight", "-1 kN"),
                              ("must be > 0", "stuck", "--pull", "-1 kN"), ("must be > 0", "stuck", "--torque", "0 N m"),
-                             ("at most 1e+12", "stuck", "--push", "1e300 N"), ("2^63 - 1", "probability", "--seed", "9" * 25),
+                             ("at most 1e+12", "stuck", "--push", "1e300 N"),
+                             ("2^63 - 1", "probability", "--seed", "9" * 25),
                              ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:99999999999"),
-                             ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:1e3"), ("is empty", "check", "-o", "")):
+                             ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:1e3"),
+                             ("is empty", "check", "-o", "")):
             with self.subTest(words=words):
                 self.assertIn(told, self.ask(words[0], self.scene, *words[1:], status=2))
         for command in ("torque-drag", "stuck"):
@@ -146,17 +167,23 @@ class NonsenseTest(FolderTest):
 
     def test_scenes(self):
         """Numbers without end, devices as files, and what varies along a hole that is not there."""
-        for told, text in (("must be finite", f"[hole]\nmu_dynamic = {'1' * 400}\n"), ("2: the file: has a number of too many digits", f"[hole]\nmu_dynamic = {'1' * 5000}\n"),
-                           ("is a folder or a device", '[hole]\nsurvey_file = "/dev/zero"\n'), ("is a device or a named pipe", 'catalogue = "/dev/zero"\n'),
-                           ("the scene has no [hole]", '[[variability.field]]\nname = "f"\nkeys = ["hole.mu_static"]\nrelative = true\ndistribution = "lognormal"\n'
-                            'mean = 1\ndeviation = "40 %"\ncorrelation_length = "10 m"\nspacing = "5 m"\nto = "300 m"\n')):
+        for told, text in (("must be finite", f"[hole]\nmu_dynamic = {'1' * 400}\n"),
+                           ("2: the file: has a number of too many digits", f"[hole]\nmu_dynamic = {'1' * 5000}\n"),
+                           ("is a folder or a device", '[hole]\nsurvey_file = "/dev/zero"\n'),
+                           ("is a device or a named pipe", 'catalogue = "/dev/zero"\n'),
+                           ("the scene has no [hole]",
+                            '[[variability.field]]\nname = "f"\nkeys = ["hole.mu_static"]\nrelative = '
+                            'true\ndistribution = "lognormal"\n'
+                            'mean = 1\ndeviation = "40 %"\ncorrelation_length = "10 m"\nspacing = "5 m"\nto = "300 '
+                            'm"\n')):
             with self.subTest(text=text[:60]):
                 self.assertIn(told, self.ask("check", self.write("bad.toml", text), status=2))
 
     def test_missing_tables(self):
         """The least lines are enough."""
         bare = SCENE[:SCENE.index("[response]")]
-        for command, more in (("response", ()), ("speeds", ()), ("buckle", ()), ("probability", ("--samples", "1", "--engine", "serial"))):
+        for command, more in (("response", ()), ("speeds", ()), ("buckle", ()),
+                              ("probability", ("--samples", "1", "--engine", "serial"))):
             with self.subTest(command=command):
                 lines = self.ask(command, self.write("bare.toml", bare), *more, status=2).split("for example:\n")[1]
                 self.ask(command, self.write("more.toml", bare + lines), *more)
@@ -178,13 +205,16 @@ class PictureTest(unittest.TestCase):
     def test_profile_at_rest(self):
         """Rounding of forces and torques stays near 0; a torque that friction could give fills its axis."""
         import numpy
-        found = mock.Mock(depth=numpy.linspace(0, 100, 101), along=numpy.linspace(0, 100, 101), axial_force=1e-9 * numpy.sin(numpy.arange(101)),
-                          torque=1e-12 * numpy.cos(numpy.arange(101)), bending_moment=numpy.ones(101), contact_depth=numpy.arange(3000.0) / 30,
+        found = mock.Mock(depth=numpy.linspace(0, 100, 101), along=numpy.linspace(0, 100, 101),
+                          axial_force=1e-9 * numpy.sin(numpy.arange(101)),
+                          torque=1e-12 * numpy.cos(numpy.arange(101)), bending_moment=numpy.ones(101),
+                          contact_depth=numpy.arange(3000.0) / 30,
                           contact_force=numpy.full(3000, 3.0))
         axial, torque, _, wall = self.plots.profile(found).axes
         self.assertGreaterEqual(axial.get_xlim()[1], 90.0)       # 1 % of 9 kN on the wall
         self.assertGreaterEqual(torque.get_xlim()[1], 4.5)
-        self.assertEqual((len(wall.patches), len(wall.collections), wall.get_xlim()[0]), (0, 1, 0.0))  # one artist for all contacts
+        # one artist for all contacts
+        self.assertEqual((len(wall.patches), len(wall.collections), wall.get_xlim()[0]), (0, 1, 0.0))
         found.torque = 90.0 * numpy.cos(numpy.arange(101))
         self.assertLess(self.plots.profile(found).axes[1].get_xlim()[1], 110.0)
 
@@ -209,8 +239,9 @@ class PictureTest(unittest.TestCase):
             axes = figure.axes[0]
             figure.canvas.draw()
             below, above = axes.get_ylim()
-            labels = [text.get_text() for which in ("major", "minor") for place, text in zip(axes.yaxis.get_ticklocs(minor=which == "minor"),
-                                                                                       axes.get_yticklabels(which=which)) if below <= place <= above]
+            labels = [text.get_text() for which in ("major", "minor")
+                      for place, text in zip(axes.yaxis.get_ticklocs(minor=which == "minor"),
+                                             axes.get_yticklabels(which=which)) if below <= place <= above]
             self.assertGreaterEqual(len([text for text in labels if text]), 3, (low, high, labels))
             self.assertGreaterEqual(above / below, 9.99)
 
@@ -253,11 +284,14 @@ class EndTest(FolderTest):
             self.assertGreater(found["elapsed_s"], 0.0)
 
     def test_stopped_within_an_exec(self):
-        """Python ends by the signal where Ctrl-C came within an exec, though it was dealt with; the command has its own status still."""
+        """Python ends by the signal where Ctrl-C came within an exec, though it was dealt with; the command has its own
+        status still."""
         for end, status in (("program()", 130),):  # sys.exit(main()) has -2 there by Python 3.11
-            self.write("stopped.py", "import sys\nfrom drillmbd import commands\nfrom drillmbd.command import main, program\n"
+            self.write("stopped.py",
+                       "import sys\nfrom drillmbd import commands\nfrom drillmbd.command import main, program\n"
                        f"commands.QUESTIONS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
-            process = subprocess.run([COMMAND[0], "-m", "stopped", "check", self.scene, "-o", self.folder / "out"], capture_output=True, text=True,
+            process = subprocess.run([COMMAND[0], "-m", "stopped", "check", self.scene, "-o", self.folder / "out"],
+                                     capture_output=True, text=True,
                                      env=ENVIRONMENT, cwd=self.folder)
             self.assertEqual((process.returncode, process.stderr), (status, ""))
             self.assertIn("stopped by Ctrl-C", process.stdout)
@@ -266,7 +300,8 @@ class EndTest(FolderTest):
     def test_nobody_reads_on(self):
         """Behind "| head" the command ends with its status and without a word."""
         for words in (("keys", "string.pipes"), ("schema",), ("check", self.scene)):
-            process = subprocess.Popen([*COMMAND, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
+            process = subprocess.Popen([*COMMAND, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       env=ENVIRONMENT)
             process.stdout.close()
             error = process.stderr.read()
             process.stderr.close()
@@ -286,7 +321,8 @@ class EndTest(FolderTest):
     def test_sweep_goes_on(self):
         """Cases of the same settings are kept; of another scene, command or option they are computed again."""
         from drillmbd import commands
-        words = ("sweep", self.scene, "stuck", "--vary", "hole.mu_dynamic=0.1:0.3:3", "-o", self.folder / "out", "--", "--pull", "20 kN")
+        words = ("sweep", self.scene, "stuck", "--vary", "hole.mu_dynamic=0.1:0.3:3", "-o", self.folder / "out", "--",
+                 "--pull", "20 kN")
         real, seen = commands.QUESTIONS["stuck"], []
 
         def stop_at_third(*arguments):
@@ -316,13 +352,16 @@ class EndTest(FolderTest):
     def test_interrupted_processes(self):
         """Real processes in the middle of long analyses end within seconds."""
         heavy = self.write("heavy.toml", HEAVY)
-        for words in (("static",), ("run",), ("modes",), ("response",), ("speeds",), ("buckle",), ("torque-drag", "--depths", "500"), ("report",),
-                      ("sweep", "static", "--vary", "hole.mu_dynamic=0.1,0.2"), ("probability", "--engine", "processes", "--workers", "2")):
+        for words in (("static",), ("run",), ("modes",), ("response",), ("speeds",), ("buckle",),
+                      ("torque-drag", "--depths", "500"), ("report",),
+                      ("sweep", "static", "--vary", "hole.mu_dynamic=0.1,0.2"),
+                      ("probability", "--engine", "processes", "--workers", "2")):
             if words[0] == "report" and importlib.util.find_spec("plotly") is None:
                 continue  # it ends at once, since plotly draws its figures
             with self.subTest(command=words[0]):
                 output = self.folder / words[0]
-                process = subprocess.Popen([*COMMAND, words[0], heavy, *words[1:], "-o", output], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+                process = subprocess.Popen([*COMMAND, words[0], heavy, *words[1:], "-o", output],
+                                           stderr=subprocess.PIPE, stdout=subprocess.PIPE,
                                            env=ENVIRONMENT, text=True,
                                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
                 begun = output / ("00001/scene.toml" if words[0] == "sweep" else "scene.toml")

@@ -1,5 +1,6 @@
-"""Tests of the engines of a study: the same numbers in one process, threads, processes, MPI and Dask, whatever the order and the number
-of workers; workers that die, one and all; samples that cannot be computed; files that grow, that are cut, and that are of something else."""
+"""Tests of the engines of a study: the same numbers in one process, threads, processes, MPI and Dask, whatever the
+order and the number of workers; workers that die, one and all; samples that cannot be computed; files that grow, that
+are cut, and that are of something else."""
 import contextlib
 import csv
 import importlib.util
@@ -100,7 +101,8 @@ class Toy:
 
 
 def there(*names):
-    return unittest.skipIf([one for one in names if importlib.util.find_spec(one) is None], f"not there: {', '.join(names)}")
+    return unittest.skipIf([one for one in names if importlib.util.find_spec(one) is None],
+                           f"not there: {', '.join(names)}")
 
 
 def point(number):
@@ -125,8 +127,10 @@ class EngineTest(Base):
         sample = SceneSample(SCENE)
         points = Points("monte-carlo", 7, sample.dimension, 12)
         known = [one.margins for one in Study(sample, engines.serial).run(range(12), points.z)]
-        self.assertEqual([one.margins for one in Study(sample, engines.serial).run(range(11, -1, -1), points.z)][::-1], known)
-        made = {"threads 2": engines.threads(2), "processes 1": engines.processes(1), "processes 3": engines.processes(3)}
+        self.assertEqual([one.margins for one in Study(sample, engines.serial).run(range(11, -1, -1), points.z)][::-1],
+                         known)
+        made = {"threads 2": engines.threads(2), "processes 1": engines.processes(1),
+                "processes 3": engines.processes(3)}
         if importlib.util.find_spec("distributed"):
             made["dask 2"] = engines.dask(2)
         for name, engine in made.items():
@@ -183,8 +187,10 @@ class FileTest(Base):
             study = Study(Toy(self.folder), engines.serial, file)
             for end in (3, 7):
                 study.run(range(end), point)
-                code = "import sys; from drillmbd.probability.study import read_rows; print(len(read_rows(sys.argv[1])[0]))"
-                done = subprocess.run([sys.executable, "-c", code, self.folder / "s.h5"], env=ENVIRONMENT, capture_output=True, text=True)
+                code = ("import sys; from drillmbd.probability.study import read_rows; "
+                        "print(len(read_rows(sys.argv[1])[0]))")
+                done = subprocess.run([sys.executable, "-c", code, self.folder / "s.h5"], env=ENVIRONMENT,
+                                      capture_output=True, text=True)
                 self.assertEqual(done.stdout.strip(), str(end), done.stderr)
             with self.assertRaisesRegex(StudyError, "another run writes it"):
                 StudyFile(self.folder / "s.h5", Toy(self.folder), {})
@@ -201,7 +207,8 @@ class FileTest(Base):
         StudyFile(self.folder / "s.h5", SceneSample(SCENE), {"seed": 1}).close()
         before = (self.folder / "s.h5").read_bytes()
         for sample, settings, told in ((SceneSample(SCENE.replace("count = 8", "count = 9")), {"seed": 1},
-                                        "scene: 'count = 8' in the file, 'count = 9' now"), (SceneSample(SCENE), {"seed": 2}, "setting seed: '1' in the file, '2' now")):
+                                        "scene: 'count = 8' in the file, 'count = 9' now"),
+                                       (SceneSample(SCENE), {"seed": 2}, "setting seed: '1' in the file, '2' now")):
             with self.assertRaisesRegex(StudyError, told):
                 StudyFile(self.folder / "s.h5", sample, settings)
         self.assertEqual((self.folder / "s.h5").read_bytes(), before)
@@ -222,7 +229,8 @@ class FileTest(Base):
         text, file = SCENE + '[[failure]]\nkind = "own"\nname = "mine"\n', self.folder / "mine.py"
         self.scene.write_text(text, encoding="utf-8")
         file.write_text("def margin(look):\n    return 1.0\n", encoding="utf-8")
-        words = (self.scene, "-o", self.folder / "out", "--samples", 2, "--engine", "serial", "--own", f"mine={file}:margin")
+        words = (self.scene, "-o", self.folder / "out", "--samples", 2, "--engine", "serial", "--own",
+                 f"mine={file}:margin")
         self.assertIn("mine: 0, 95 %", self.command(*words))
         file.write_text("def margin(look):\n    return -1.0\n", encoding="utf-8")
         self.assertIn("'    return 1.0' in the file, '    return -1.0' now", self.command(*words, status=2))
@@ -245,17 +253,21 @@ class CommandTest(Base):
 
     def test_methods(self):
         for method in ("latin-hypercube", "sobol", "subset"):
-            out = self.command(self.scene, "--samples", 40, "--method", method, "--failure", "rig-torque", "--engine", "serial", *(
+            out = self.command(self.scene, "--samples", 40, "--method", method, "--failure", "rig-torque", "--engine",
+                               "serial", *(
                 ("-o", self.folder / method)))
             self.assertIn("rig-torque: ", out)
-            again = self.command(self.scene, "--samples", 40, "--method", method, "--failure", "rig-torque", "--workers", 2, *(
+            again = self.command(self.scene, "--samples", 40, "--method", method, "--failure", "rig-torque",
+                                 "--workers", 2, *(
                 ("-o", self.folder / method)))
             self.assertIn("0 samples computed", again)
-            self.assertEqual(*(one.splitlines()[[i for i, line in enumerate(one.splitlines()) if line.startswith("rig-torque")][0]]
+            self.assertEqual(*(one.splitlines()[[i for i, line in enumerate(one.splitlines())
+                                                 if line.startswith("rig-torque")][0]]
                                for one in (out, again)))
 
     def test_indices(self):
-        out = self.command(self.scene, "-o", self.folder / "out", "--indices", 16, "--failure", "rig-torque", "--workers", 2)
+        out = self.command(self.scene, "-o", self.folder / "out", "--indices", 16, "--failure", "rig-torque",
+                           "--workers", 2)
         summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
         self.assertEqual(set(summary["indices"]), {"friction", "masses", "rock load"})
         self.assertIn("total", out)
@@ -278,7 +290,8 @@ class CommandTest(Base):
         words = (*COMMAND, "probability", self.scene, "-o", self.folder / "out", "--samples", "24", "--workers", "2")
         kept = 0
         for wanted in (4, 10):
-            run = subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+            run = subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   start_new_session=True)
             deadline = time.monotonic() + 120.0
             while run.poll() is None and time.monotonic() < deadline:
                 with contextlib.suppress(StudyError):
@@ -302,7 +315,8 @@ class CommandTest(Base):
         """Workers of a killed parent end; they hold no lock."""
         self.scene.write_text(SCENE.replace('end = "30 ms"', 'end = "2 s"'), encoding="utf-8")
         words = (*COMMAND, "probability", self.scene, "-o", self.folder / "out", "--samples", "100", "--workers", "3")
-        run = subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        run = subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               start_new_session=True)
         deadline = time.monotonic() + 120.0
         while run.poll() is None and time.monotonic() < deadline:
             with contextlib.suppress(StudyError):
@@ -321,9 +335,11 @@ class CommandTest(Base):
                 gone = True
         self.assertTrue(gone)
 
-    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None,
+                     "not there: mpirun, mpi4py")
     def test_mpi(self):
-        words = (*MPIRUN, "3", *COMMAND, "probability", self.scene, "-o", self.folder / "out", "--samples", "12", "--engine", "mpi")
+        words = (*MPIRUN, "3", *COMMAND, "probability", self.scene, "-o", self.folder / "out", "--samples", "12",
+                 "--engine", "mpi")
         done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=200)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("samples computed"), 1, done.stdout)
@@ -333,7 +349,8 @@ class CommandTest(Base):
         self.assertNotEqual(alone.returncode, 0)
         self.assertIn("two ranks or more", alone.stderr)
 
-    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None,
+                     "not there: mpirun, mpi4py")
     def test_a_rank_dies(self):
         """A rank that dies ends the whole run, as MPI has it; called again, it computes what is not in the file."""
         self.scene.write_text(SCENE + '[[failure]]\nkind = "own"\nname = "mine"\n', encoding="utf-8")

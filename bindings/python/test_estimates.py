@@ -1,6 +1,6 @@
-"""Tests of failure probabilities against limit states with known answers: linear (FORM to 1e-6), four branches, a noisy oscillator,
-products of lognormals; every method inside its interval. With --whole 100 repeats of each instead of 10, and the rate at which 95 %
-intervals hold the answer.
+"""Tests of failure probabilities against limit states with known answers: linear (FORM to 1e-6), four branches, a noisy
+oscillator, products of lognormals; every method inside its interval. With --whole 100 repeats of each instead of 10,
+and the rate at which 95 % intervals hold the answer.
 Equations: eq:probability.clopper-pearson, eq:probability.designs, eq:probability.subset, eq:probability.conditional,
 eq:probability.subset-bias, eq:probability.form, eq:probability.sobol, eq:probability.surrogate."""
 import math
@@ -16,7 +16,8 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.stats import norm
 
-from drillmbd.probability.estimates import Indices, Subset, Surrogate, clopper_pearson, counted, effective, form, plan, sampled, sobol_indices
+from drillmbd.probability.estimates import (Indices, Subset, Surrogate, clopper_pearson, counted, effective, form, plan,
+                                            sampled, sobol_indices)
 from drillmbd.probability.fields import Markov
 from drillmbd.probability.sampling import Points, drawn
 
@@ -45,8 +46,8 @@ def four_branches_known():
 
 
 class Oscillator:
-    """x'' + 2 d w x' + w^2 x = f(t) from rest, f a Markov process in steps; fails where x at the end is beyond a limit. x is linear in z,
-    so that P = Phi(-limit/deviation)."""
+    """x'' + 2 d w x' + w^2 x = f(t) from rest, f a Markov process in steps; fails where x at the end is beyond a limit.
+    x is linear in z, so that P = Phi(-limit/deviation)."""
 
     def __init__(self, beta, steps=100, step=0.05, w=4.0, d=0.05):
         markov = Markov(0.3, step, steps)
@@ -139,7 +140,8 @@ class IntervalTest(unittest.TestCase):
 
     def test_coverage(self):
         """95 % intervals hold the known probability in 88 of 100 repeats at least, small designs, fixed seeds."""
-        small = (("linear", linear(1.5), 2, norm.cdf(-1.5), 200), ("oscillator", Oscillator(1.5, 40), 40, norm.cdf(-1.5), 200),
+        small = (("linear", linear(1.5), 2, norm.cdf(-1.5), 200),
+                 ("oscillator", Oscillator(1.5, 40), 40, norm.cdf(-1.5), 200),
                  ("four branches", four_branches, 2, FOUR, 1000))
         inside = dict[str, int]()
         for method in ("monte-carlo", "latin-hypercube", "sobol"):
@@ -157,7 +159,8 @@ class IntervalTest(unittest.TestCase):
 
     def test_subset(self):
         for name, margin, dimension, known in RARE:
-            found = [[Subset(seed, dimension, 500).run(margin, level) for level in (0.99, 0.95)] for seed in range(REPEATS)]
+            found = [[Subset(seed, dimension, 500).run(margin, level) for level in (0.99, 0.95)]
+                     for seed in range(REPEATS)]
             self.inside(f"subset, {name}", known, found)
             mean = np.mean([one[0].probability for one in found])
             self.assertLess(abs(mean / known - 1.0), 0.25, name)
@@ -204,7 +207,8 @@ class PointsTest(unittest.TestCase):
             self.assertFalse(np.array_equal(forth, [Points(method, 8, 5, 40, 4).z(i) for i in range(points.samples)]))
 
     def test_streams(self):
-        """Neighbours in seed and number have nothing to do with each other; the numbers of Philox stay what they are."""
+        """Neighbours in seed and number have nothing to do with each other; the numbers of Philox stay what they
+        are."""
         z = np.array([[drawn(seed, number, 50) for number in range(40)] for seed in range(40)])
         self.assertLess(abs(np.corrcoef(z[:, :-1].reshape(-1), z[:, 1:].reshape(-1))[0, 1]), 0.015)
         self.assertLess(abs(np.corrcoef(z[:-1].reshape(-1), z[1:].reshape(-1))[0, 1]), 0.015)
@@ -224,7 +228,8 @@ class IndicesTest(unittest.TestCase):
         def margin(numbers, z):
             x = math.pi * (2.0 * norm.cdf(z) - 1.0)
             return np.sin(x[:, 0]) + 7.0 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
-        v1, v2, v13 = 0.5 * (1.0 + 0.1 * math.pi ** 4 / 5.0) ** 2, 49.0 / 8.0, 0.01 * math.pi ** 8 * (1.0 / 18.0 - 1.0 / 50.0)
+        v1, v2, v13 = (0.5 * (1.0 + 0.1 * math.pi ** 4 / 5.0) ** 2, 49.0 / 8.0,
+                       0.01 * math.pi ** 8 * (1.0 / 18.0 - 1.0 / 50.0))
         total = v1 + v2 + v13
         found = sobol_indices(margin, {"x": 1, "y": 1, "z": 1}, 1024, confidence=0.99)
         for i, (first, whole) in enumerate(((v1, v1 + v13), (v2, v2), (0.0, v13))):
@@ -243,7 +248,8 @@ class IndicesTest(unittest.TestCase):
         for first, wanted in (([0.9, 0.2], 1), ([0.7, 0.2], 0)):
             ends = np.array([[0.0, 1.0]] * 2)
             made = answer.Answer.__new__(answer.Answer)
-            made.sample, made.asked, made.output = unittest.mock.MagicMock(), unittest.mock.MagicMock(), unittest.mock.Mock(summary={})
+            made.sample, made.asked, made.output = (unittest.mock.MagicMock(), unittest.mock.MagicMock(),
+                                                    unittest.mock.Mock(summary={}))
             made.sample.draw.sizes, made.limit, made.scales = [0], 0, None
             made.options = unittest.mock.Mock(indices=16)
             found = Indices(["a", "b"], np.array(first), np.array([0.8, 0.3]), ends, ends, 64, 0)
@@ -251,7 +257,8 @@ class IndicesTest(unittest.TestCase):
                 made._indices(unittest.mock.Mock())
             self.assertEqual(made.output.note_text.call_count, wanted)
             if wanted:
-                self.assertRegex(made.output.note_text.call_args[0][0], "16 rows are too few.*index of a is above.*--indices 64")
+                self.assertRegex(made.output.note_text.call_args[0][0],
+                                 "16 rows are too few.*index of a is above.*--indices 64")
 
     def test_lost_rows(self):
         def margin(numbers, z):
@@ -298,7 +305,8 @@ class SurrogateTest(unittest.TestCase):
             Surrogate(z, locked)
         with self.assertRaisesRegex(ValueError, "all the same"):
             Surrogate(z, np.ones(100))
-        for margins, wanted in ((lambda n, z: np.where(z[:, 0] > 1.0, -math.inf, 1.0), "infinite"), (lambda n, z: np.ones(len(z)), "the same in all")):
+        for margins, wanted in ((lambda n, z: np.where(z[:, 0] > 1.0, -math.inf, 1.0), "infinite"),
+                                (lambda n, z: np.ones(len(z)), "the same in all")):
             with self.assertRaisesRegex(ArithmeticError, wanted):
                 sobol_indices(margins, {"a": 1, "b": 1}, 16)
 

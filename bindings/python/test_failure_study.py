@@ -1,5 +1,5 @@
-"""Tests of examples/failure_probability: its README's command on a short form, whose figures are those of its study files, and that computes
-nothing twice."""
+"""Tests of examples/failure_probability: its README's command on a short form, whose figures are those of its study
+files, and that computes nothing twice."""
 import csv
 import json
 import pathlib
@@ -47,7 +47,8 @@ class StudyTest(FolderTest):
         self.assertTrue((out / "map.png").exists())  # keys with one value are no axes
         before = [read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)]
         self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
-        self.assertEqual([read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)], before)
+        self.assertEqual([read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist()
+                          for number in range(1, 5)], before)
 
     def test_coupling_changes_the_scene(self):
         """Each key that the command varies is one of the scene: friction is gone in the first value, vibration too."""
@@ -57,9 +58,12 @@ class StudyTest(FolderTest):
 
         def of(made, name, key):
             """A field; default values are left out of the description."""
-            return next(arguments[-1].get(key, getattr(DEFINITIONS["hole" if name == "wall" else name](), key)) for one, arguments in made.model.calls if one == "add_" + name)
-        self.assertEqual([of(bare, "wall", key) for key in ("mu_static", "mu_dynamic")] + [of(bare, "pipes", "eccentricity")], [0.0] * 3)
-        self.assertEqual([of(rig, "wall", key) for key in ("mu_static", "mu_dynamic")] + [of(rig, "pipes", "eccentricity")], [0.35, 0.3, 1e-3])
+            return next(arguments[-1].get(key, getattr(DEFINITIONS["hole" if name == "wall" else name](), key))
+                        for one, arguments in made.model.calls if one == "add_" + name)
+        self.assertEqual([of(bare, "wall", key) for key in ("mu_static", "mu_dynamic")]
+                         + [of(bare, "pipes", "eccentricity")], [0.0] * 3)
+        self.assertEqual([of(rig, "wall", key) for key in ("mu_static", "mu_dynamic")]
+                         + [of(rig, "pipes", "eccentricity")], [0.35, 0.3, 1e-3])
         self.assertEqual(len([key for key in first if re.search("share|mu_|eccentricity", key)]), 4)
 
     def test_scene_is_itself(self):

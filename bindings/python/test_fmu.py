@@ -1,5 +1,5 @@
-"""Units for co-simulation exported from scene files, held against the scene's own run (equal numbers), what their description says
-against what the scene says, and what is refused."""
+"""Units for co-simulation exported from scene files, held against the scene's own run (equal numbers), what their
+description says against what the scene says, and what is refused."""
 import ctypes
 import math
 import os
@@ -101,8 +101,10 @@ place = "head"
 name = "{quantity}"
 quantity = "{quantity}"
 place = {{part = "main", pipe = 4, fraction = 0.3}}
-""" for quantity in ("position-x", "position-z", "velocity-x", "velocity-y", "spin", "rotation", "bit-depth", "rotary-speed",
-                      "feed-speed", "stretch", "wind-up", "contacts-deepest", "energy-kinetic", "momentum-x", "centre-y",
+""" for quantity in ("position-x", "position-z", "velocity-x", "velocity-y", "spin", "rotation", "bit-depth",
+                     "rotary-speed",
+                      "feed-speed", "stretch", "wind-up", "contacts-deepest", "energy-kinetic", "momentum-x",
+                     "centre-y",
                       "world-velocity-x", "body-velocity-ry", "world-acceleration-x"))
 
 
@@ -113,7 +115,8 @@ class Unit3:
         self.library = ctypes.CDLL(str(next((folder / "binaries").glob(f"*/{identifier}.*"))))
         instantiate = self.library.fmi3InstantiateCoSimulation
         instantiate.restype = c_void_p
-        self.handle = c_void_p(instantiate(b"rig", token.encode(), str(folder / "resources").encode(), c_bool(False), c_bool(False),
+        self.handle = c_void_p(instantiate(b"rig", token.encode(), str(folder / "resources").encode(), c_bool(False),
+                                           c_bool(False),
                                            c_bool(False), c_bool(False), None, c_size_t(0), None, None, None))
         assert self.handle.value
 
@@ -134,7 +137,8 @@ class Unit3:
         """Shape (unknowns); None where it is refused with that status."""
         values = (c_double * len(unknowns))(*[7.0] * len(unknowns))
         arguments = ((c_uint32 * len(unknowns))(*unknowns), c_size_t(len(unknowns)), (c_uint32 * len(knowns))(*knowns),
-                     c_size_t(len(knowns)), (c_double * len(seed))(*seed), c_size_t(len(seed)), values, c_size_t(len(unknowns)))
+                     c_size_t(len(knowns)), (c_double * len(seed))(*seed), c_size_t(len(seed)), values,
+                     c_size_t(len(unknowns)))
         if refused is None:
             self.call("GetDirectionalDerivative", *arguments)
             return list(values)
@@ -207,7 +211,8 @@ class Fmu(FolderTest):
         fmu.export(loaded, path)
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
-        unit = Unit3(folder, ElementTree.parse(folder / "modelDescription.xml").getroot().get("instantiationToken"), "whole")
+        unit = Unit3(folder, ElementTree.parse(folder / "modelDescription.xml").getroot().get("instantiationToken"),
+                     "whole")
         unit.begin()
         with loaded.new_sim() as sim:
             if loaded.run.get("static", 0):
@@ -268,26 +273,32 @@ class Fmu(FolderTest):
     def test_description3(self):
         loaded, root, _ = self.unpacked(3, SCENE + EVENT)
         self.assertEqual((root.get("fmiVersion"), root.get("modelName")), ("3.0", loaded.title))
-        self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories", "DefaultExperiment",
+        self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories",
+                                                         "DefaultExperiment",
                                                          "ModelVariables", "ModelStructure"])
         self.assertEqual(root.find("CoSimulation").get("modelIdentifier"), "rig3")
         self.assertEqual(root.find("CoSimulation").get("hasEventMode"), "true")
         found = {one.get("name"): one for one in root.find("ModelVariables")}
         references = [one.get("valueReference") for one in root.find("ModelVariables")]
         self.assertEqual(len(set(references)), len(references))
-        self.assertEqual(list(found), ["time", "step", "speed", "friction", "torque", "bit speed", "wall force", "fast, times"])
+        self.assertEqual(list(found), ["time", "step", "speed", "friction", "torque", "bit speed", "wall force",
+                                       "fast, times"])
         speed, friction = found["speed"], found["friction"]
-        self.assertEqual((speed.get("causality"), speed.get("unit"), float(speed.get("start"))), ("input", "rad/s", 0.0))
+        self.assertEqual((speed.get("causality"), speed.get("unit"), float(speed.get("start"))),
+                         ("input", "rad/s", 0.0))
         self.assertAlmostEqual(float(speed.get("max")), 31.41592653589793, places=12)
-        self.assertEqual((friction.get("causality"), friction.get("variability"), friction.get("start")), ("parameter", "tunable", "1.0"))
-        self.assertEqual([found[name].get("unit") for name in ("torque", "bit speed", "wall force")], ["N m", "rad/s", "N"])
+        self.assertEqual((friction.get("causality"), friction.get("variability"), friction.get("start")),
+                         ("parameter", "tunable", "1.0"))
+        self.assertEqual([found[name].get("unit") for name in ("torque", "bit speed", "wall force")],
+                         ["N m", "rad/s", "N"])
         self.assertEqual((found["fast, times"].tag, found["fast, times"].get("variability")), ("Int32", "discrete"))
         self.assertEqual(found["step"].get("start"), "0.0")  # events: steps of the library's choice
         outputs = [one.get("valueReference") for one in root.find("ModelVariables") if one.get("causality") == "output"]
         for tag in ("Output", "InitialUnknown"):
             self.assertEqual([one.get("valueReference") for one in root.find("ModelStructure").findall(tag)], outputs)
         self.check_units(root)
-        self.assertFalse(any("start" in one.attrib for one in root.find("ModelVariables") if one.get("causality") == "output"))
+        self.assertFalse(any("start" in one.attrib for one in root.find("ModelVariables")
+                             if one.get("causality") == "output"))
 
     def check_units(self, root):
         units = {one.get("name"): one.find("BaseUnit").attrib for one in root.find("UnitDefinitions")}
@@ -297,7 +308,8 @@ class Fmu(FolderTest):
         self.assertEqual(used, set(units))
 
     def test_dependencies(self):
-        """Outputs that the structure calls independent of inputs stay to the bit whatever is set at a communication point."""
+        """Outputs that the structure calls independent of inputs stay to the bit whatever is set at a communication
+        point."""
         loaded, root, folder = self.unpacked(3, MOVED)
         free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
                 if one.get("dependencies") == ""}
@@ -322,12 +334,15 @@ class Fmu(FolderTest):
         for version, names in ((3, ("Output", "InitialUnknown")), (2, ("Outputs", "InitialUnknowns"))):
             _, root, _ = self.unpacked(version, SCENE + EVENT)
             structure = root.find("ModelStructure")
-            found = [[one.get("dependencies") for one in (structure.findall(tag) if version == 3 else structure.find(tag))]
+            found = [[one.get("dependencies")
+                      for one in (structure.findall(tag) if version == 3 else structure.find(tag))]
                      for tag in names]
-            self.assertEqual(found, [[None, "", None, ""], [None, None, None, ""]])  # torque, bit speed, wall force, events
+            # torque, bit speed, wall force, events
+            self.assertEqual(found, [[None, "", None, ""], [None, None, None, ""]])
 
     def test_directional_derivatives(self):
-        """At an equilibrium those are D of the state space; of poses and speeds they are 0; along a seed they add up."""
+        """At an equilibrium those are D of the state space; of poses and speeds they are 0; along a seed they add
+        up."""
         loaded, root, folder = self.unpacked(3, MOVED.replace("static = false", "static = true"))
         self.assertEqual(root.find("CoSimulation").get("providesDirectionalDerivatives"), "true")
         unit = Unit3(folder, root.get("instantiationToken"), "rig3")
@@ -345,14 +360,16 @@ class Fmu(FolderTest):
         self.assertLess(max(map(abs, limited)), 1e-20)  # what has a rate limit does not jump
         with loaded.new_sim() as sim:
             sim.static()
-            inputs = [Excitation(kind=EXCITATION_SETTING, place=mbd.station(loaded.model.inputs()[name].input)) for name in at]
+            inputs = [Excitation(kind=EXCITATION_SETTING, place=mbd.station(loaded.model.inputs()[name].input))
+                      for name in at]
             asked = [0, len(outputs) - 1]  # torque of the head, acceleration
             D = sim.state_space(inputs, [(loaded.outputs[i][1], loaded.outputs[i][2])
                                          for i in asked]).D
         self.assertGreater(abs(D[1]).min(), 1e-9)
         for column, name in enumerate(at):
             for row, i in enumerate(asked):
-                self.assertAlmostEqual(found[name][i], D[row, column], delta=1e-7 * abs(D[row]).max(), msg=f"{name}, {i}")
+                self.assertAlmostEqual(found[name][i], D[row, column], delta=1e-7 * abs(D[row]).max(),
+                                       msg=f"{name}, {i}")
         seed = [3.0, -2.0, 0.5]
         together = unit.derivative(outputs, list(at.values()), seed)
         for number, value in enumerate(together):
@@ -366,7 +383,8 @@ class Fmu(FolderTest):
         numbers = []
         for asks in (False, True):
             unit = Unit3(folder, root.get("instantiationToken"), "rig3")
-            unit.call("EnterInitializationMode", c_bool(False), c_double(0.0), c_double(0.0), c_bool(False), c_double(0.0))
+            unit.call("EnterInitializationMode", c_bool(False), c_double(0.0), c_double(0.0), c_bool(False),
+                      c_double(0.0))
             if asks:
                 self.assertAlmostEqual(unit.derivative([200000], [100000], [1.0])[0], 500.0, delta=1e-8)
                 self.assertEqual(unit.derivative([200000], [100001], [1.0], 2), None)  # friction: in the static state
@@ -383,7 +401,8 @@ class Fmu(FolderTest):
             numbers.append(seen)
             for unknowns, knowns, seed, status in (([100000], [100000], [1.0], 3), ([200000], [200000], [1.0], 3),
                                                    ([300000], [100000], [1.0], 3), ([200000], [1], [1.0], 3),
-                                                   ([200000], [100000], [math.inf], 2), ([200000], [100000], [math.nan], 2)):
+                                                   ([200000], [100000], [math.inf], 2),
+                                                   ([200000], [100000], [math.nan], 2)):
                 self.assertEqual(unit.derivative(unknowns, knowns, seed, status), None)
             self.assertEqual(unit.derivative([], [], []), [])
             self.assertEqual(unit.derivative([200000], [], []), [0.0])
@@ -406,7 +425,8 @@ class Fmu(FolderTest):
 
     def test_units(self):
         for unit, want in (("kg m2/s", {"kg": 1, "m": 2, "s": -1}), ("N s/m2", {"kg": 1, "m": -1, "s": -1}), ("-", {}),
-                           ("N m s", {"kg": 1, "m": 2, "s": -1}), ("1/m", {"m": -1}), ("Pa", {"kg": 1, "m": -1, "s": -2})):
+                           ("N m s", {"kg": 1, "m": 2, "s": -1}), ("1/m", {"m": -1}),
+                           ("Pa", {"kg": 1, "m": -1, "s": -2})):
             self.assertEqual(fmu.base_exponents(unit), want, unit)
         from drillmbd.outputs import output_numbers, output_unit
         for number in output_numbers():
@@ -429,7 +449,8 @@ class Fmu(FolderTest):
         twice = scene.loads(SCENE.replace('"wall force"', '"bit speed [rad/s]"'))
         with self.assertRaisesRegex(fmu.CannotExport, "of its own"):
             fmu.export(twice, self.folder / "no.fmu")
-        for text, name in ((SCENE.replace('initial = "0 rpm"', ""), "speed"), (MOVED.replace('initial = "0.2 kN"', ""), "weight")):
+        for text, name in ((SCENE.replace('initial = "0 rpm"', ""), "speed"),
+                           (MOVED.replace('initial = "0.2 kN"', ""), "weight")):
             with self.assertRaisesRegex(fmu.CannotExport, f"input {name} replaces a time function that changes"):
                 fmu.export(scene.loads(text), self.folder / "no.fmu")
         with self.assertRaises(OSError):
@@ -448,8 +469,10 @@ class Fmu(FolderTest):
         string = model.add_pipes(2)
         model.add_drive(time_function=model.add_time_function(lambda time: 0.0))
         model.compile()
-        given = scene.Scene(title="", model=model, names={}, pipes={}, outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
-        with self.assertRaisesRegex(fmu.CannotExport, "segment 0 of time function 0 is a function of the caller, .* give it as a table"):
+        given = scene.Scene(title="", model=model, names={}, pipes={},
+                            outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
+        with self.assertRaisesRegex(fmu.CannotExport,
+                                    "segment 0 of time function 0 is a function of the caller, .* give it as a table"):
             fmu.export(given, self.folder / "no.fmu")
 
     def test_data_behind_pointers_is_refused(self):
@@ -465,7 +488,8 @@ class Fmu(FolderTest):
         string = model.add_pipes(2)
         model.set_name(string, "rods")
         model.compile()
-        given = scene.Scene(title="", model=model, names={}, pipes={}, outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
+        given = scene.Scene(title="", model=model, names={}, pipes={},
+                            outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
         fmu.export(given, self.folder / "named.fmu")
         with zipfile.ZipFile(self.folder / "named.fmu") as archive:
             archive.extractall(self.folder / "named")
@@ -482,9 +506,11 @@ class Fmu(FolderTest):
         self.assertTrue(zipfile.is_zipfile(target))
         self.ask("fmu", str(self.scene), "--version", "2", "-q")
         self.assertTrue((self.folder / "rig.fmu").exists())
-        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[output]]")[0])), status=2))
+        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[output]]")[0])),
+                                             status=2))
         self.ask("fmu", str(self.scene), "-o", str(self.folder / "nowhere" / "x.fmu"), status=3)
-        help_text = subprocess.run([*COMMAND, "fmu", "--help"], env=ENVIRONMENT, capture_output=True, text=True, check=True).stdout
+        help_text = subprocess.run([*COMMAND, "fmu", "--help"], env=ENVIRONMENT, capture_output=True, text=True,
+                                   check=True).stdout
         self.assertIn("drillmbd fmu rig.toml -o rig.fmu", help_text)
 
 

@@ -1,5 +1,5 @@
-"""A unit with its sources: what buildDescription.xml says is compiled as it says, in a folder without this project, and the binary
-gives the numbers of the one that was exported, bit for bit."""
+"""A unit with its sources: what buildDescription.xml says is compiled as it says, in a folder without this project, and
+the binary gives the numbers of the one that was exported, bit for bit."""
 import pathlib
 import shutil
 import subprocess
@@ -31,13 +31,15 @@ def compiled(folder):
     words += [f"-I{one.get('name')}" for one in files.findall("IncludeDirectory")]
     names = [one.get("name") for one in files.findall("SourceFile")]
     with ThreadPoolExecutor(2) as pool:
-        for done in pool.map(lambda name: subprocess.run([*words, name, "-o", name + ".o"], cwd=folder, capture_output=True, text=True),
+        for done in pool.map(lambda name: subprocess.run([*words, name, "-o", name + ".o"], cwd=folder,
+                                                         capture_output=True, text=True),
                              names):
             if done.returncode != 0:
                 raise AssertionError(done.stderr)
     binary = folder / "unit.so"
     libraries = [f"-l{one.get('name')}" for one in build.findall("Library")]
-    subprocess.run([CC[1], "-shared", "-o", str(binary), *(name + ".o" for name in names), *libraries], cwd=folder, check=True)
+    subprocess.run([CC[1], "-shared", "-o", str(binary), *(name + ".o" for name in names), *libraries], cwd=folder,
+                   check=True)
     return binary
 
 
@@ -77,7 +79,8 @@ class Sources(unittest.TestCase):
         with zipfile.ZipFile(self.folder / "unit.fmu") as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
             listed = {one.get("name") for one in root.find("CoSimulation").find("SourceFiles")}
-            held = {name[len("sources/"):] for name in archive.namelist() if name.startswith("sources/") and name.endswith(".c")}
+            held = {name[len("sources/"):] for name in archive.namelist() if name.startswith("sources/")
+                    and name.endswith(".c")}
         self.assertEqual(listed, held)
         self.assertIn("fmi/fmi2.c", listed)
 

@@ -1,4 +1,5 @@
-"""The user's guide, examples/README.md, and README.md: scenes, commands and programs run and give the figures of the text."""
+"""The user's guide, examples/README.md, and README.md: scenes, commands and programs run and give the figures of the
+text."""
 import contextlib
 import io
 import math
@@ -73,7 +74,8 @@ class GuideTest(unittest.TestCase):
         printed = self.run_commands(scene, re.findall(r"^    (drillmbd .*hole\.toml.*)$", README, re.M))
         drill = re.search(r"drill at 100 m: .*", printed["torque-drag"]).group()
         page = " ".join(README.split())
-        for word in ("thrust 10.04 kN", "torque 259.8 N m", "9.5 % of the helical buckling load", "1.9 % of the yield strength"):
+        for word in ("thrust 10.04 kN", "torque 259.8 N m", "9.5 % of the helical buckling load",
+                     "1.9 % of the yield strength"):
             self.assertIn(word, drill)
             self.assertIn(word, page)
         quoted = re.search(r"`(thrust [^`]*limit [^`]*)`", README).group(1)
@@ -123,10 +125,12 @@ class GuideTest(unittest.TestCase):
     def test_names_exist(self):
         """Functions, commands, tests and files that the guide names."""
         for name in set(re.findall(r"`(dmb_\w+)", GUIDE)):
-            self.assertTrue(hasattr(mbd._lib, name) or hasattr(mbd._lib, name + "_init") or name in ("dmb_model", "dmb_sim"), name)
+            self.assertTrue(hasattr(mbd._lib, name) or hasattr(mbd._lib, name + "_init")
+                            or name in ("dmb_model", "dmb_sim"), name)
         for path in set(re.findall(r"`((?:tests|pkgconfig|examples|bindings|\.ci)/[\w/.-]+)", GUIDE)):
             self.assertTrue((ROOT / path).exists(), path)
-        help_text = output_of(lambda: self.assertRaises(SystemExit, __import__("drillmbd.command").command.main, ["--help"]))
+        help_text = output_of(lambda: self.assertRaises(SystemExit, __import__("drillmbd.command").command.main,
+                                                        ["--help"]))
         for name in re.findall(r"^\|[^|]*\| `([a-z-]+)`", GUIDE, re.M):
             if not name.startswith("["):
                 self.assertIn(f"drillmbd {name} " if name != "sweep" else "drillmbd sweep", help_text)

@@ -1,4 +1,5 @@
-"""Muds with a yield stress in scene files and readings of a viscometer; pressures by depth of the command torque-drag."""
+"""Muds with a yield stress in scene files and readings of a viscometer; pressures by depth of the command
+torque-drag."""
 import json
 import math
 import unittest
@@ -30,7 +31,8 @@ pipe = "5 in 19.50 S135"
 
 class ViscometerTest(unittest.TestCase):
     def test_exact_readings_give_their_mud(self):
-        for yield_stress, consistency, exponent in ((4.0, 0.6, 0.7), (0.0, 0.6, 0.55), (9.0, 0.02, 1.0), (2.0, 3.0, 0.25)):
+        for yield_stress, consistency, exponent in ((4.0, 0.6, 0.7), (0.0, 0.6, 0.55), (9.0, 0.02, 1.0),
+                                                    (2.0, 3.0, 0.25)):
             readings = [(speed, (yield_stress + consistency * (1.703 * speed) ** exponent) / 0.511)
                         for speed in (600.0, 300.0, 200.0, 100.0, 6.0, 3.0)]
             found = viscometer.fit(readings)
@@ -44,15 +46,18 @@ class ViscometerTest(unittest.TestCase):
         found = viscometer.fit([(600.0, 52.0), (300.0, 34.0)])
         self.assertEqual(found.flow_exponent, 1.0)
         self.assertAlmostEqual(found.consistency / 1e-3, 18.0, delta=0.02)
-        self.assertAlmostEqual(found.yield_stress / (4.4482216 / 9.290304), 16.0, delta=1.1)  # the spring has 1.067 lbf/100 ft2 a degree
+        # the spring has 1.067 lbf/100 ft2 a degree
+        self.assertAlmostEqual(found.yield_stress / (4.4482216 / 9.290304), 16.0, delta=1.1)
 
     def test_no_yield_stress_below_zero(self):
         found = viscometer.fit([(600.0, 60.0), (300.0, 29.0), (3.0, 0.1)])
         self.assertEqual(found.yield_stress, 0.0)
 
     def test_refused_readings(self):
-        for readings, words in (("{600 = 65}", "two speeds"), ("{600 = 60, 300 = 65}", "must be more than"), ("5", "table of readings"),
-                                ("{a = 3, 300 = 2}", "table of readings"), ('{600 = "65", 300 = 40}', "table of readings"),
+        for readings, words in (("{600 = 65}", "two speeds"), ("{600 = 60, 300 = 65}", "must be more than"),
+                                ("5", "table of readings"),
+                                ("{a = 3, 300 = 2}", "table of readings"),
+                                ('{600 = "65", 300 = 40}', "table of readings"),
                                 ("{300 = 3, 0 = 2}", "speeds > 0")):
             with self.assertRaises(scene.SceneError) as refused:
                 scene.loads(WELL.replace("{600 = 65, 300 = 42, 200 = 33, 100 = 24, 6 = 9, 3 = 8}", readings))
@@ -77,7 +82,8 @@ class ViscometerTest(unittest.TestCase):
 class HydraulicsTest(FolderTest):
     def command(self, text):
         self.write("well.toml", text)
-        said = self.ask("torque-drag", str(self.folder / "well.toml"), "--output", str(self.folder / "out"), "--depths", "90 m,180 m")
+        said = self.ask("torque-drag", str(self.folder / "well.toml"), "--output", str(self.folder / "out"), "--depths",
+                        "90 m,180 m")
         return said, json.loads((self.folder / "out" / "summary.json").read_text()), self.folder / "out"
 
     def test_table_and_sentence(self):
@@ -89,13 +95,16 @@ class HydraulicsTest(FolderTest):
                 one = sim.hydraulics(depth, found["trip_speed_m_s"])
                 self.assertEqual(found["circulating_density_kg_m3"][number], one.circulating_density)
                 self.assertEqual(found["surge_density_kg_m3"][number], one.surge_density)
-                self.assertAlmostEqual(one.circulating_density - 1250.0, one.annulus_loss / (9.81 * one.vertical_depth), delta=1e-9)
+                self.assertAlmostEqual(one.circulating_density - 1250.0, one.annulus_loss / (9.81 * one.vertical_depth),
+                                       delta=1e-9)
                 self.assertLess(one.swab_density, 1250.0)
         self.assertIn("equivalent circulating density", said)
         self.assertTrue((folder / "hydraulics_string.csv").exists())
 
     def test_rising_hole_has_no_equivalent_density(self):
-        said, summary, _ = self.command(WELL.replace('"0 deg", "0 deg"]', '"95 deg", "0 deg"]').replace('"30 deg", "0 deg"]', '"95 deg", "0 deg"]'))
+        said, summary, _ = self.command(WELL.replace('"0 deg", "0 deg"]',
+                                                     '"95 deg", "0 deg"]').replace('"30 deg", "0 deg"]',
+                                                                                   '"95 deg", "0 deg"]'))
         self.assertIn("not assessed, because the bit is not below the collar", said)
         self.assertEqual(summary["hydraulics"]["string"]["circulating_density_kg_m3"], [None, None])
 

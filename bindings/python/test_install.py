@@ -103,7 +103,8 @@ class InstallTest(unittest.TestCase):
         (tree / "bindings" / "python").mkdir(parents=True)
         (tree / "CMakePresets.json").write_text("{}")
         (tools / "cmake").write_text('#!/bin/sh\n[ "$1" = --build ] || exit 0\nmkdir -p build/user\n'
-                                     'echo library > build/user/libdrillmbd.so; echo unit > build/user/drillmbd_fmu.so; exit ${FAIL:-0}\n')
+                                     'echo library > build/user/libdrillmbd.so; echo unit > '
+                                     'build/user/drillmbd_fmu.so; exit ${FAIL:-0}\n')
         (tools / "cmake").chmod(0o755)
         with unittest.mock.patch.object(backend, "HERE", tree / "bindings" / "python"), \
                 unittest.mock.patch.dict(os.environ, {"PATH": f"{tools}:{os.environ['PATH']}"}):
@@ -147,7 +148,8 @@ class InstallTest(unittest.TestCase):
         source = prefix / "share" / "bash-completion" / "completions" / "drillmbd"
         for words, wanted in ((["drillmbd", "tor"], "torque-drag"), (["drillmbd", "run", "x.toml", "--unt"], "--until"),
                               (["drillmbd", "probability", "--engine", "da"], "dask")):
-            ask = f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo "${{COMPREPLY[@]}}"'
+            ask = (f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo '
+                   f'"${{COMPREPLY[@]}}"')
             self.assertEqual(run("bash", "-c", ask).strip(), wanted)
 
     def test_cmake(self):

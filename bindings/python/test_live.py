@@ -1,5 +1,6 @@
-"""The live page without a browser: the record of a scene makes the same model again, its page is whole and asks for no network, a log gives
-the run that it was saved of, and what cannot become a page is refused. bindings/web/test looks at the page itself."""
+"""The live page without a browser: the record of a scene makes the same model again, its page is whole and asks for no
+network, a log gives the run that it was saved of, and what cannot become a page is refused. bindings/web/test looks at
+the page itself."""
 import json
 import pathlib
 import re
@@ -42,7 +43,8 @@ def rebuilt(record):
         made = []
         for one in structs:
             one = revived(model, one)
-            arrays = {key: one.pop(key) for key in ("survey", "table_time", "table_value", "table_elongation", "table_force") if key in one}
+            arrays = {key: one.pop(key) for key in ("survey", "table_time", "table_value", "table_elongation",
+                                                    "table_force") if key in one}
             for key in ("survey_count", "table_count") if arrays else ():
                 one.pop(key, None)
             if "survey" in arrays:
@@ -131,7 +133,8 @@ class Record(unittest.TestCase):
         loaded = scene.load(SCENARIOS[0])
         loaded.model = Model()
         loaded.model.add_pipes(2)
-        loaded.model.add_drive(component=enums.RX, kind=enums.DRIVE_LOAD, time_function=loaded.model.add_time_function(lambda time: time))
+        loaded.model.add_drive(component=enums.RX, kind=enums.DRIVE_LOAD,
+                               time_function=loaded.model.add_time_function(lambda time: time))
         loaded.model.compile()
         with self.assertRaisesRegex(Usage, "function of Python"):
             live_scene.record_of(loaded, "x")
@@ -178,14 +181,16 @@ class Strings(unittest.TestCase):
     def test_a_string_continues_the_one_that_it_is_joined_to(self):
         loaded = scene.loads(STRINGS)
         found, with_bit = strings_of(loaded, loaded.names["upper"])
-        number = {name: [one["index"] for one in found].index(part.index) for name, part in loaded.names.items() if name in ("upper", "middle", "last", "apart")}
+        number = {name: [one["index"] for one in found].index(part.index) for name, part in loaded.names.items()
+                  if name in ("upper", "middle", "last", "apart")}
         self.assertEqual({name: found[at]["continues"] for name, at in number.items()},
                          {"upper": None, "middle": number["upper"], "last": number["middle"], "apart": None})
         self.assertEqual(with_bit, number["last"])
         upper = found[number["upper"]]
         self.assertEqual([one["end"] for one in upper["radii"]], [30.0, 60.0])
         self.assertEqual(upper["radii"][0]["radius"], 0.0445)
-        self.assertEqual([found[number[name]]["length"] for name in ("upper", "middle", "last", "apart")], [60.0, 20.0, 20.0, 5.0])
+        self.assertEqual([found[number[name]]["length"] for name in ("upper", "middle", "last", "apart")],
+                         [60.0, 20.0, 20.0, 5.0])
 
     def test_the_first_string_has_the_bit_that_names_none(self):
         loaded = scene.load(SCENARIOS[0])
@@ -198,13 +203,16 @@ class Words(unittest.TestCase):
         folder = ROOT / "bindings/web/live"
         template = set(re.findall(r"\[\[(.+?)\]\]", (folder / "page.html").read_text(encoding="utf-8")))
         self.assertEqual(template, set(live_words.PAGE))
-        scripts = {one for path in folder.glob("*.mjs") for one in re.findall(r'\bword\("([^"]*)"', path.read_text(encoding="utf-8"))}
+        scripts = {one for path in folder.glob("*.mjs")
+                   for one in re.findall(r'\bword\("([^"]*)"', path.read_text(encoding="utf-8"))}
         self.assertEqual(scripts, set(live_words.SCRIPTS))
         self.assertGreater(len(scripts), 20)
 
     def test_no_text_outside_the_catalogue(self):
-        """In the template, letters between tags are of sentences in [[ ]], of parts @name@ that are filled in, or of the command."""
-        text = re.sub(r"<(style|script).*?</\1>|<code>.*?</code>|<title>.*?</title>", "", (ROOT / "bindings/web/live/page.html").read_text(encoding="utf-8"), flags=re.S)
+        """In the template, letters between tags are of sentences in [[ ]], of parts @name@ that are filled in, or of
+        the command."""
+        text = re.sub(r"<(style|script).*?</\1>|<code>.*?</code>|<title>.*?</title>", "",
+                      (ROOT / "bindings/web/live/page.html").read_text(encoding="utf-8"), flags=re.S)
         left = re.sub(r"\[\[.*?\]\]|@\w+@", "", re.sub(r"<[^>]*>", " ", re.sub(r'aria-label="(.*?)"', r">\1<", text)))
         self.assertEqual(re.findall(r"[A-Za-z]+", left), [])
 
@@ -234,12 +242,18 @@ class Page(FolderTest):
         self.assertIn('<html lang="zh-CN">', text)
         record = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
         self.assertEqual(record["words"]["Run"], "运行")
-        shown = [one[key] for one in record["traces"] + record["controls"] for key in ("title", "unit")] + [one["text"] for trace in record["traces"] for one in trace["limits"]]
-        body = re.sub(r'<p class="about">.*?</p>|<h1>.*?</h1>|<code>.*?</code>', "", re.sub(r"<script.*?</script>|<style.*?</style>", "", text, flags=re.S))
-        for one in [*shown, *record["words"].values(), re.sub(r"<[^>]*>", " ", re.sub(r'aria-label="(.*?)"', r">\1<", body[body.index("<body>"):]))]:
+        shown = [one[key] for one in record["traces"] + record["controls"]
+                 for key in ("title", "unit")] + [one["text"] for trace in record["traces"] for one in trace["limits"]]
+        body = re.sub(r'<p class="about">.*?</p>|<h1>.*?</h1>|<code>.*?</code>', "",
+                      re.sub(r"<script.*?</script>|<style.*?</style>", "", text, flags=re.S))
+        for one in [*shown, *record["words"].values(),
+                    re.sub(r"<[^>]*>", " ", re.sub(r'aria-label="(.*?)"', r">\1<", body[body.index("<body>"):]))]:
             left = set(re.findall(r"[A-Za-z]{2,}", re.sub(r"\{\w+\}", "", one)))
-            self.assertLessEqual(left, set("WebAssembly WebGL libdrillmbd kN mm ms rpm MPa kPa kg deg rad mu bit main string feed rotation GPa".split()), one)
-        english = json.loads(re.search(r'id="scene">(.*?)</script>', live.page(scene.load(path), str(path), self.package), re.S)[1])
+            self.assertLessEqual(left,
+                                 set("WebAssembly WebGL libdrillmbd kN mm ms rpm MPa kPa kg deg rad mu bit main string "
+                                     "feed rotation GPa".split()), one)
+        english = json.loads(re.search(r'id="scene">(.*?)</script>',
+                                       live.page(scene.load(path), str(path), self.package), re.S)[1])
         self.assertEqual(english["checksum"], record["checksum"])
         self.assertEqual(english["words"], {})
 
@@ -256,7 +270,8 @@ class Page(FolderTest):
         environment = {**ENVIRONMENT, "DRILLMBD_WEB": str(self.package)}
 
         def ask(*words):
-            return subprocess.run([*COMMAND, "live", str(path), *words], capture_output=True, text=True, env=environment)
+            return subprocess.run([*COMMAND, "live", str(path), *words], capture_output=True, text=True,
+                                  env=environment)
         done = ask("-o", str(page))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("MB, opens in a browser", done.stdout)
@@ -267,7 +282,8 @@ class Page(FolderTest):
         done = ask("--replay", str(target))
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         self.assertIn(f"hash {log['hash']}, as in the browser", done.stdout)
-        for change, text in (({"hash": "0" * 16}, "another version"), ({"checksum": "1"}, "log of another scene"), ({"time": "x"}, "no log")):
+        for change, text in (({"hash": "0" * 16}, "another version"), ({"checksum": "1"}, "log of another scene"),
+                             ({"time": "x"}, "no log")):
             target.write_text(json.dumps({**log, **change}), encoding="utf-8")
             done = ask("--replay", str(target))
             self.assertNotEqual(done.returncode, 0)
@@ -287,7 +303,8 @@ class Page(FolderTest):
                         sim.inputs[name] = value
                         inputs.append({"time": sim.time, "input": name, "value": value, "call": len(inputs)})
                 sim.step(loaded.run["step"])
-            return {"scene": loaded.title, "checksum": live_scene.record_of(loaded, "")["checksum"], "step": loaded.run["step"], "diameter": 0.11,
+            return {"scene": loaded.title, "checksum": live_scene.record_of(loaded, "")["checksum"],
+                    "step": loaded.run["step"], "diameter": 0.11,
                     "time": sim.time, "hash": f"{sim.hash():016x}", "inputs": inputs}
 
     def test_a_package_of_another_version_is_refused(self):
@@ -299,7 +316,8 @@ class Page(FolderTest):
             path.write_text(changed, encoding="utf-8")
             with self.assertRaisesRegex(Usage, "another version of the library.*SEGMENT_STEP.*bindings/web/build"):
                 live._same_interface(self.package)
-        done = subprocess.run([*COMMAND, "live", str(SCENARIOS[0]), "-o", str(pathlib.Path(self.folder) / "page.html")], capture_output=True, text=True,
+        done = subprocess.run([*COMMAND, "live", str(SCENARIOS[0]), "-o", str(pathlib.Path(self.folder) / "page.html")],
+                              capture_output=True, text=True,
                               env={**ENVIRONMENT, "DRILLMBD_WEB": str(self.package)})
         self.assertEqual(done.returncode, 2)
         self.assertIn("another version of the library", done.stderr)

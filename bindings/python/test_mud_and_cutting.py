@@ -1,5 +1,5 @@
-"""Fields by which mud goes along with bodies, bits and rings, motors take pressure, and cutters widen the hole: from Python
-and from scene files, there and back, against closed forms."""
+"""Fields by which mud goes along with bodies, bits and rings, motors take pressure, and cutters widen the hole: from
+Python and from scene files, there and back, against closed forms."""
 import math
 import unittest
 
@@ -160,7 +160,8 @@ class MotorPressureTest(TwoWays):
             with loaded.new_sim() as sim:
                 flow = sim.flow()
                 self.near(flow.motor_loss, self.PRESSURE)
-                self.near(flow.pump_pressure, flow.bore_loss + flow.bit_loss + flow.annulus_loss + flow.column + flow.motor_loss)
+                self.near(flow.pump_pressure, flow.bore_loss + flow.bit_loss + flow.annulus_loss + flow.column
+                          + flow.motor_loss)
                 sim.step(0.01)
                 self.near(sim.flow().motor_loss, drive["mud_pressure"] * sim.drive(loaded.names["motor"]).force)
 
@@ -171,7 +172,8 @@ class MotorPressureTest(TwoWays):
         self.near(line.mud_pressure, 2.0 * math.pi / (self.EFFICIENCY * self.DISPLACEMENT))
         self.near(speed, 2.0 * math.pi * self.FLOW / self.DISPLACEMENT)
         keys = (f'kind = "control"\ncomponent = "rx"\ngain = "{line.gain!r} N m s"\nlimit_low = 0\n'
-                f'limit_high = "{line.limit_high!r} N m"\ntime_function = "{speed!r} rad/s"\nmud_pressure = "{line.mud_pressure!r} Pa/(N m)"\n')
+                f'limit_high = "{line.limit_high!r} N m"\ntime_function = "{speed!r} rad/s"\nmud_pressure = '
+                f'"{line.mud_pressure!r} Pa/(N m)"\n')
         motor = next(one for one in MOTOR.splitlines() if one.startswith("motor"))
         ends = []
         for text in (MOTOR, MOTOR.replace(motor, keys)):
@@ -179,7 +181,8 @@ class MotorPressureTest(TwoWays):
                 with loaded.new_sim() as sim:
                     for _ in range(10):
                         sim.step(1e-3)
-                    ends.append((sim.flow().motor_loss, sim.flow().pump_pressure, sim.drive(loaded.names["motor"]).speed))
+                    ends.append((sim.flow().motor_loss, sim.flow().pump_pressure,
+                                 sim.drive(loaded.names["motor"]).speed))
         self.assertEqual(len(set(ends)), 1)
         self.assertGreater(ends[0][2], 0.0)
         with self.assertRaisesRegex(scene.SceneError, "mud_pressure"):

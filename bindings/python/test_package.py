@@ -82,8 +82,8 @@ class NamesTest(unittest.TestCase):
                 self.assertTrue(value.__doc__, name)
 
     def test_each_name_has_a_docstring(self):
-        """Constants by their own sentence where the headers have one, outputs by their unit, structs by what they are for,
-        each public method and property of all classes."""
+        """Constants by their own sentence where the headers have one, outputs by their unit, structs by what they are
+        for, each public method and property of all classes."""
         for name in mbd.__all__:
             self.assertTrue(getattr(mbd, name).__doc__, name)
             if inspect.isclass(getattr(mbd, name)):
@@ -91,7 +91,8 @@ class NamesTest(unittest.TestCase):
                     static = inspect.getattr_static(getattr(mbd, name), member)
                     if not member.startswith("_") and (inspect.isfunction(static) or isinstance(static, property)):
                         self.assertTrue(inspect.getdoc(static), f"{name}.{member}")
-        self.assertEqual(mbd.FRICTION_BRISTLE.__doc__, "elastic bristle that sticks; breaks away at mu_static, one step late (order 1)")
+        self.assertEqual(mbd.FRICTION_BRISTLE.__doc__,
+                         "elastic bristle that sticks; breaks away at mu_static, one step late (order 1)")
         self.assertTrue(mbd.OUTPUT_VELOCITY_X.__doc__.startswith("[m/s]"))
         self.assertIn("STRIBECK: mu_d", mbd.FrictionLaw.__doc__)
         self.assertIn("output (Output)", mbd.EventDef.__doc__)
@@ -132,12 +133,15 @@ class NamesTest(unittest.TestCase):
             import mypy  # noqa: F401
         except ImportError:
             self.skipTest("not there: mypy")
-        right = (HERE.parents[1] / "examples" / "README.md").read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
-        right += ('definition = mbd.PipeDef(length=3, name="rods", kind=mbd.PIPE_FLEXIBLE, curvature=(0.0, 0.0, 0.01))\n'
+        right = (HERE.parents[1] / "examples"
+                 / "README.md").read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
+        right += ('definition = mbd.PipeDef(length=3, name="rods", kind=mbd.PIPE_FLEXIBLE, curvature=(0.0, 0.0, '
+                  '0.01))\n'
                   "frame, force = sim.profile(string, 30).frame(), sim.drive(table).force + 1.0\n"
                   "done = sim.run(2.1, step=1e-3, progress=lambda at: at.fraction > 0.5)\n")
         right += ('sim.set_drive(table, 1.0)\nsim.set_drive("table", 1.0)\nspeed = sim.drive(model["table"]).speed\n'
-                  "again = mbd.Model()\nagain.add_pipes(3, mbd.PipeDef(length=3))\nagain.compile(pipe_kind=mbd.PIPE_RIGID)\n"
+                  "again = mbd.Model()\nagain.add_pipes(3, "
+                  "mbd.PipeDef(length=3))\nagain.compile(pipe_kind=mbd.PIPE_RIGID)\n"
                   "found = again.sim(newton_tolerance=1e-8).modes(count=3)\n")
         wrong = ('mbd.PipeDef(lenght=3.0)\nmbd.PipeDef(length="3")\nsim.step("1")\nmbd.DriveDef(part="rods")\n'
                  "again.add_pipes(3, outer_diamter=0.07)\nagain.sim(newton_tolerence=1e-8)\nsim.static(load_step=3)\n"
@@ -168,7 +172,8 @@ class ErrorPartsTest(unittest.TestCase):
     def test_parts_of_a_message(self):
         model = mbd.Model()
         error = self.caught(model.add_wall, diameter=-0.5)
-        self.assertEqual((error.status, error.part, error.field, error.value), (mbd.ERR_VALUE, "wall", "diameter", -0.5))
+        self.assertEqual((error.status, error.part, error.field, error.value),
+                         (mbd.ERR_VALUE, "wall", "diameter", -0.5))
         self.assertTrue(error.bound)
         body = model.add_body()
         error = self.caught(model.add_joint, name="crank", place_b=body, axis_a=(0, 0, 0))
@@ -182,7 +187,8 @@ class ErrorPartsTest(unittest.TestCase):
 
     def test_advice(self):
         error = mbd.Error(-5, "pipe 3: length = 0 m, must be > 0 m; leave it out")
-        self.assertEqual((error.field, error.value, error.bound, error.advice), ("length", 0.0, "be > 0 m", "leave it out"))
+        self.assertEqual((error.field, error.value, error.bound, error.advice),
+                         ("length", 0.0, "be > 0 m", "leave it out"))
 
     def test_errors_pickle(self):
         error = pickle.loads(pickle.dumps(self.caught(mbd.Model().add_wall, diameter=-0.5)))
@@ -440,7 +446,8 @@ class ArraysTest(unittest.TestCase):
             for _ in range(20):
                 sim.step(1e-3)
             runs.append(sim.output("velocity_z", mbd.station(strings[-1], 2, 1.0)))
-        self.assertAlmostEqual(derivatives[1][0], (runs[1] - runs[0]) / 0.02, delta=1e-6 * abs(derivatives[1][0]) + 1e-12)
+        self.assertAlmostEqual(derivatives[1][0], (runs[1] - runs[0]) / 0.02,
+                               delta=1e-6 * abs(derivatives[1][0]) + 1e-12)
         pose, velocity = made.rows("damping")
         self.assertEqual(len(pose), len(velocity))
         self.assertEqual(made.kinks("damping"), 0)
@@ -581,7 +588,8 @@ class ArraysTest(unittest.TestCase):
         moving.set_environment(gravity=(0.0, 0.0, 0.0))
         other = moving.add_string(start_free=mbd.FREE_CYLINDRICAL)
         moving.add_pipes(8, string=other, damping_time=1e-3)
-        moving.add_drive(part=other, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6, time_function=moving.add_time_function(
+        moving.add_drive(part=other, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6,
+                         time_function=moving.add_time_function(
             mbd.Segment(table=([0.0, rise], [0.0, 1e-4]))))
         moving.add_drive(part=other, component=mbd.RX, time_function=moving.add_time_function(mbd.Segment()))
         moving.compile()
@@ -622,13 +630,15 @@ class ArraysTest(unittest.TestCase):
         self.assertIn("curve_stress", str(raised.exception))
 
     def test_torque_drag(self):
-        found = self.sim.torque_drag([mbd.OPERATION_PICK_UP, mbd.usual_operation(mbd.OPERATION_DRILL, weight_on_bit=1e3)],
+        found = self.sim.torque_drag([mbd.OPERATION_PICK_UP,
+                                      mbd.usual_operation(mbd.OPERATION_DRILL, weight_on_bit=1e3)],
                                      [5.0, 10.0], friction=0.25)
         self.assertEqual([len(row) for row in found.rows], [2, 2])
         self.assertEqual([mbd.operation_name(kind) for kind in range(6)],
                          ["pick-up", "slack-off", "rotate", "drill", "slide", "back-ream"])
         self.assertAlmostEqual(found.column("hook_load")[1], 2.0 * found.column("hook_load")[0])
-        self.assertAlmostEqual(self.sim.friction_factor(mbd.OPERATION_PICK_UP, hook_load=found.column("hook_load")[1]), 0.25)
+        self.assertAlmostEqual(self.sim.friction_factor(mbd.OPERATION_PICK_UP, hook_load=found.column("hook_load")[1]),
+                               0.25)
         along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 11, friction=0.25)
         self.assertAlmostEqual(along["axial_force"][0], found.column("hook_load")[1])
         self.assertAlmostEqual(along["depth"][5], 5.0)
@@ -643,7 +653,8 @@ class ArraysTest(unittest.TestCase):
         modes = self.sim.modes(count=6, contact=mbd.CONTACT_OPEN)
         shapes = modes.shapes(0, self.places)
         self.assertEqual(shapes.shape, (10, 6))
-        self.assertEqual(shapes[4, 1], complex(modes.shape(0, self.places[4]).re[1], modes.shape(0, self.places[4]).im[1]))
+        self.assertEqual(shapes[4, 1], complex(modes.shape(0, self.places[4]).re[1],
+                                               modes.shape(0, self.places[4]).im[1]))
         self.assertEqual(list(modes.frequencies), sorted(mode.frequency for mode in modes))
 
     @there("numpy", "matplotlib.pyplot")
@@ -691,7 +702,8 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(frame["damage [-]"].tolist(), [one.damage for one in counted.results])
         self.assertEqual(len(counted.counter.frame()), 10)
         along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 4)
-        self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]", "wall force [N/m]"])
+        self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]",
+                                                       "wall force [N/m]"])
         self.assertEqual(along.frame()["depth [m]"].tolist(), along["depth"])
         bands, severity = self.sim.speeds([mbd.Order()], [(self.places[4], "vibration_z")], [1e-9], points=20,
                                           speed_low=2.0, speed_high=40.0, contact=mbd.CONTACT_OPEN)
@@ -726,8 +738,10 @@ class ArraysTest(unittest.TestCase):
         figures = [plots.causes(response, ["a force"], label="tip [m]"), plots.frequencies(modes),
                    plots.study([1.0, 2.0], {"a [Hz]": [1.0, 2.0], "b [m]": [3.0, 4.0]}, "length [m]", log=True),
                    plots.orbit(table[:, 1], table[:, 2], 0.01), plots.over_time(rows, 1),
-                   plots.spectrum(table, ["time [s]", "a [m]", "b [m]"]), plots.profile(profile, "statics"), plots.string(profile, 0.094),
-                   plots.shapes(modes, self.places, [i + 1.0 for i in range(10)]), plots.response(response, ["tip [m/N]"]),
+                   plots.spectrum(table, ["time [s]", "a [m]", "b [m]"]), plots.profile(profile, "statics"),
+                   plots.string(profile, 0.094),
+                   plots.shapes(modes, self.places, [i + 1.0 for i in range(10)]),
+                   plots.response(response, ["tip [m/N]"]),
                    plots.severity([1.0, 2.0, 3.0], [0.1, 2.0, 0.3], [band]),
                    plots.history(mbd.numpy.zeros((3, 3)), ["time [s]", "a [m]", "b [N]"]),
                    plots.buckling(modes.shapes(0, self.places).real, range(10), 2.5)]

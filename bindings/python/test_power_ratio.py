@@ -1,7 +1,8 @@
-"""A horizontal string with a random friction field, pushed by a constant force, shaken at the bit by a mud motor, against a constant load
-of the rock, after the published one (Ritto, Escalante, Sampaio, Rosales, J. Sound Vib. 332, 2013; not with its numbers). The ratio of
-the power that arrives to the power put in has two heaps: strings that slide all along give load over push, strings that the motor
-shakes loose in part creep and give less. A rigid bar on the same friction, which is solved exactly, tells which is which."""
+"""A horizontal string with a random friction field, pushed by a constant force, shaken at the bit by a mud motor,
+against a constant load of the rock, after the published one (Ritto, Escalante, Sampaio, Rosales, J. Sound Vib. 332,
+2013; not with its numbers). The ratio of the power that arrives to the power put in has two heaps: strings that slide
+all along give load over push, strings that the motor shakes loose in part creep and give less. A rigid bar on the same
+friction, which is solved exactly, tells which is which."""
 import math
 import unittest
 
@@ -105,7 +106,8 @@ def power_ratio(look):
 
 
 def motor_runs(look):
-    return look.scene.model.calls[[name for name, _ in look.scene.model.calls].index("add_time_function")][1][0].get("h1", 0.0) != 0.0
+    return look.scene.model.calls[[name for name, _
+                                   in look.scene.model.calls].index("add_time_function")][1][0].get("h1", 0.0) != 0.0
 
 
 def advance(look):
@@ -143,7 +145,8 @@ class RatioTest(unittest.TestCase):
         self.assertGreater((rests < PUSH - ROCK).sum(), 3)
         self.assertGreater((rests > PUSH - ROCK).sum(), 3)
         for found_advance, friction in zip(found[:, 1], rests):
-            bounds = exact(1.02 * friction), exact(0.98 * friction) + 0.01  # stretch and the first wave: within 2 % of the friction
+            # stretch and the first wave: within 2 % of the friction
+            bounds = exact(1.02 * friction), exact(0.98 * friction) + 0.01
             self.assertTrue(bounds[0] <= found_advance <= bounds[1], (found_advance, bounds))
 
     def test_two_heaps(self):

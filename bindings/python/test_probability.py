@@ -1,6 +1,7 @@
-"""Tests of what varies and what fails: distributions against their moments, ranks, covariances and Nataf's closed form; the
-margin of every limit state against what is known in closed form; the tables of scene files, good and bad.
-Equations: eq:probability.margin, eq:probability.translation, eq:probability.nataf, eq:probability.field, eq:probability.markov."""
+"""Tests of what varies and what fails: distributions against their moments, ranks, covariances and Nataf's closed form;
+the margin of every limit state against what is known in closed form; the tables of scene files, good and bad.
+Equations: eq:probability.margin, eq:probability.translation, eq:probability.nataf, eq:probability.field,
+eq:probability.markov."""
 import math
 import pathlib
 import tempfile
@@ -22,16 +23,19 @@ from drillmbd.probability.sample import DONE, FAILED, Own, SceneSample
 from drillmbd.scene.failure import KINDS
 from drillmbd.scene.variability import DISTRIBUTIONS, KERNELS, Marginal
 
-MARGINALS = [Marginal("normal", {"mean": 3.0, "deviation": 0.5}), Marginal("lognormal", {"mean": 3.0, "deviation": 1.5}),
+MARGINALS = [Marginal("normal", {"mean": 3.0, "deviation": 0.5}),
+             Marginal("lognormal", {"mean": 3.0, "deviation": 1.5}),
              Marginal("gamma", {"mean": 3.0, "deviation": 1.5}), Marginal("gumbel", {"mean": 3.0, "deviation": 1.5}),
              Marginal("weibull", {"shape": 2.0, "scale": 3.0}), Marginal("exponential", {"mean": 3.0}),
-             Marginal("uniform", {"low": 1.0, "high": 4.0}), Marginal("triangular", {"low": 1.0, "mode": 2.0, "high": 6.0}),
+             Marginal("uniform", {"low": 1.0, "high": 4.0}),
+             Marginal("triangular", {"low": 1.0, "mode": 2.0, "high": 6.0}),
              Marginal("beta", {"low": 1.0, "high": 5.0, "mean": 2.0, "deviation": 0.7}),
              Marginal("truncated-normal", {"mean": 0.0, "deviation": 1.0, "low": -1.0, "high": 1.0})]
 #: Mean and deviation in closed form where they are no parameters.
 MOMENTS = {"weibull": (3.0 * math.gamma(1.5), 3.0 * math.sqrt(1.0 - math.gamma(1.5) ** 2)), "exponential": (3.0, 3.0),
            "uniform": (2.5, 3.0 / math.sqrt(12.0)), "triangular": (3.0, math.sqrt((1 + 4 + 36 - 2 - 6 - 12) / 18.0)),
-           "truncated-normal": (0.0, math.sqrt(1.0 - 2.0 * math.exp(-0.5) / math.sqrt(2.0 * math.pi) / math.erf(math.sqrt(0.5))))}
+           "truncated-normal": (0.0, math.sqrt(1.0 - 2.0 * math.exp(-0.5) / math.sqrt(2.0 * math.pi)
+                                               / math.erf(math.sqrt(0.5))))}
 
 RIG = """title = "rig"
 [environment]
@@ -79,8 +83,8 @@ high = "1e-9 kg/m3"
 AREA = math.pi / 4.0 * (0.073 ** 2 - 0.061 ** 2)
 INERTIA = math.pi / 64.0 * (0.073 ** 4 - 0.061 ** 4)
 WEIGHT = 9.81 * 7850.0 * AREA  # [N/m]
-#: [m] length that a beam held at its end 10.5 mm above the floor does not touch: h = w l^4/(72 E I). The floor bears w l/3 where
-#: it begins, the rig 2 w l/3.
+#: [m] length that a beam held at its end 10.5 mm above the floor does not touch: h = w l^4/(72 E I). The floor bears w
+#: l/3 where it begins, the rig 2 w l/3.
 LIFTED = (72.0 * 2.1e11 * INERTIA * 0.0105 / WEIGHT) ** 0.25
 
 
@@ -118,7 +122,8 @@ class MarginalTest(unittest.TestCase):
 
     def test_nataf_of_lognormals(self):
         """rho_x = (e^(rho s1 s2) - 1)/sqrt((e^s1^2 - 1)(e^s2^2 - 1)) (Liu and Der Kiureghian 1986)."""
-        a, b = Marginal("lognormal", {"mean": 2.0, "deviation": 1.0}), Marginal("lognormal", {"mean": 1.0, "deviation": 0.3})
+        a, b = (Marginal("lognormal", {"mean": 2.0, "deviation": 1.0}),
+                Marginal("lognormal", {"mean": 1.0, "deviation": 0.3}))
         s1, s2 = math.sqrt(math.log(1.25)), math.sqrt(math.log(1.09))
         for rho in (-0.8, 0.3, 0.9):
             known = math.expm1(rho * s1 * s2) / math.sqrt(math.expm1(s1 * s1) * math.expm1(s2 * s2))
@@ -151,7 +156,8 @@ class FieldTest(unittest.TestCase):
         made = Markov(0.3, 0.1, 40)
         matrix = np.array([made(row) for row in np.eye(40)]).T
         times = 0.1 * np.arange(40)
-        self.assertLess(abs(matrix @ matrix.T - kernel("exponential", np.subtract.outer(times, times), 0.3)).max(), 1e-12)
+        self.assertLess(abs(matrix @ matrix.T - kernel("exponential", np.subtract.outer(times, times), 0.3)).max(),
+                        1e-12)
 
 
 VARIED = """[[variability.scatter]]
@@ -213,7 +219,8 @@ curve_stress = "100 MPa"
 slope = 5
 """
 SURVEY = 'survey = [["0 m", "90 deg", 0], ["20 m", "90 deg", 0]]\n'
-ALL = RIG.replace("mu_static = 0\nmu_dynamic = 0", "mu_static = 0.35\n" + SURVEY).replace('question = "static"', "seed = 3") + VARIED
+ALL = (RIG.replace("mu_static = 0\nmu_dynamic = 0", "mu_static = 0.35\n" + SURVEY).replace('question = "static"',
+                                                                                           "seed = 3") + VARIED)
 
 
 class DrawTest(unittest.TestCase):
@@ -229,7 +236,8 @@ class DrawTest(unittest.TestCase):
         draw = Draw(scene.loads(ALL))
         values = draw.values(np.random.default_rng(2).standard_normal(draw.dimension))
         varied = scene.loads(ALL, changes=draw.changes(values))
-        calls = {name: [arguments for called, arguments in varied.model.calls if called == name] for name, _ in varied.model.calls}
+        calls = {name: [arguments for called, arguments in varied.model.calls if called == name]
+                 for name, _ in varied.model.calls}
         wall = calls["add_wall"][0][0]
         self.assertAlmostEqual(wall["mu_static"], 0.35 * values["friction"], 15)
         self.assertAlmostEqual(wall.get("mu_dynamic", 0.30), 0.30 * values["friction"], 15)
@@ -243,8 +251,10 @@ class DrawTest(unittest.TestCase):
 
     def test_time_function_as_the_library_has_it(self):
         text = RIG.replace('name = "turning"\nsegment = {h0 = 0}', '''name = "turning"
-segment = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm"}, {kind = "step5", x1 = "90 ms", h1 = "9 rpm"},
-    {kind = "harmonic", h1 = "3 rpm", omega = "900 rpm", phase = "20 deg"}, {table = [["20 ms", 0], ["70 ms", "8 rpm"]]}]''')
+segment = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm"},
+    {kind = "step5", x1 = "90 ms", h1 = "9 rpm"},
+    {kind = "harmonic", h1 = "3 rpm", omega = "900 rpm", phase = "20 deg"},
+    {table = [["20 ms", 0], ["70 ms", "8 rpm"]]}]''')
         rig = scene.loads(text + failure("rig-torque", limit="1 N m"))
         terms = [arguments for name, arguments in rig.model.calls if name == "add_time_function"][2]
         with rig.new_sim() as sim:
@@ -320,12 +330,14 @@ limit = "2 kN m"
         self.assertEqual(at[4.0]["mu_dynamic"], 0.30 * values["friction"][2])
 
     def test_friction_adds_up(self):
-        """Sliding in at the Stribeck speed v_s = 1 cm/s, the rig pushes more by the sum of the friction forces, each the contact
-        force times the drawn friction there and the law (eq:friction.peak), which is within 0.002 of mu_dynamic + (mu_static -
-        mu_dynamic)/e."""
-        text = self.TEXT.replace("count = 10", "count = 16").replace('kind = "rig-torque"\nlimit = "2 kN m"', 'kind = "rig-push"\nlimit = "9 kN"')
+        """Sliding in at the Stribeck speed v_s = 1 cm/s, the rig pushes more by the sum of the friction forces, each
+        the contact force times the drawn friction there and the law (eq:friction.peak), which is within 0.002 of
+        mu_dynamic + (mu_static - mu_dynamic)/e."""
+        text = self.TEXT.replace("count = 10", "count = 16").replace('kind = "rig-torque"\nlimit = "2 kN m"',
+                                                                     'kind = "rig-push"\nlimit = "9 kN"')
         text = text[:text.index('[[variability.field]]\nname = "size"')] + text[text.index("[[failure]]"):]
-        sample = SceneSample(text, changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True,
+        sample = SceneSample(text, changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0],
+                                            "static.lay_on_wall": True,
                                             "static.slip_axial": "1 cm/s"})
         z = np.random.default_rng(4).standard_normal(sample.dimension)
         found = sample(0, z)
@@ -344,22 +356,27 @@ limit = "2 kN m"
             friction = np.interp(profile.contact_depth, 2.0 * np.arange(11), values["friction"])
             contacts = [sim.contact(number) for number in range(16)]
             total = -sum(one.friction[0] for one in contacts)
-        pressed = [number for number in range(0, 16, 2) if contacts[number].normal_force > 0.0]  # between the knots of the field
+        # between the knots of the field
+        pressed = [number for number in range(0, 16, 2) if contacts[number].normal_force > 0.0]
         self.assertGreaterEqual(len(pressed), 5)
         for number in pressed:
-            self.assertAlmostEqual(-contacts[number].friction[0] / contacts[number].normal_force / (law * friction[number]), 1.0, 5)
+            self.assertAlmostEqual(-contacts[number].friction[0] / contacts[number].normal_force
+                                   / (law * friction[number]), 1.0, 5)
         self.assertAlmostEqual((found.demands[0] - 2000.0) / total, 1.0, 6)
         self.assertGreater(np.ptp(friction), 0.15)
 
     def test_refused(self):
-        for old, new, told in (('to = "20 m"\n', "", "must have a depth `to`"), ('spacing = "3 m"', 'spacing = "1 mm"', "must be 1 .. 4000"),
+        for old, new, told in (('to = "20 m"\n', "", "must have a depth `to`"),
+                               ('spacing = "3 m"', 'spacing = "1 mm"', "must be 1 .. 4000"),
                                ('relative = true\n', "", "several need relative = true"),
                                ('"hole.mu_dynamic"]', '"hole.stribeck_speed"]', "must be different ones of"),
                                ("[hole]\n", "[hole]\nsection = [{depth = 0}]\n", "a field makes sections of its own")):
             with self.assertRaisesRegex(scene.SceneError, told):
                 scene.loads(self.TEXT.replace(old, new, 1))
         with self.assertRaisesRegex(CannotDraw, "hole.diameter varies by"):
-            Draw(scene.loads(self.TEXT + '[[variability.scatter]]\nname = "width"\nkey = "hole.diameter"\ndistribution = "uniform"\n'
+            Draw(scene.loads(self.TEXT
+                             + '[[variability.scatter]]\nname = "width"\nkey = "hole.diameter"\ndistribution = '
+                               '"uniform"\n'
                              'low = "93 mm"\nhigh = "95 mm"\n'))
 
 
@@ -381,7 +398,8 @@ class LimitTest(unittest.TestCase):
         weight = WEIGHT * (100.0 - 2.0 / 3.0 * LIFTED)
         found, margins = sampled(failure("lock-up", limit=0.99), changes={
             "environment.gravity": [0, 0, "-9.81 m/s2"], "hole.mu_static": 0.3, "hole.mu_dynamic": 0.3,
-            "load.moment": [0, 0, 0], "static.lay_on_wall": True, "static.slip_axial": "1 cm/s", "string[0].pipes.count": 100})
+            "load.moment": [0, 0, 0], "static.lay_on_wall": True, "static.slip_axial": "1 cm/s",
+            "string[0].pipes.count": 100})
         share = 2000.0 / (2000.0 + 0.3 * (weight + 5.0 * 9.81))  # the bit's 5 kg lie there too
         self.assertLess(abs(found["lock-up"] / share - 1.0), 0.02)  # the rig's guide bears some of the weight
         self.assertAlmostEqual(margins["lock-up"], found["lock-up"] - 0.99, 12)
@@ -402,20 +420,24 @@ class LimitTest(unittest.TestCase):
         found, margins = sampled(failure("stress", strength="50 MPa"), changes={"time_function[0].segment.h0": 0})
         self.assertAlmostEqual(found["stress"] / (math.sqrt(3.0) * torsion / 50e6), 1.0, 5)
         self.assertAlmostEqual(margins["stress"], 1.0 - found["stress"], 12)
-        found, _ = sampled(failure("helical-buckling"), changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0],
+        found, _ = sampled(failure("helical-buckling"), changes={"environment.gravity": [0, 0, "-9.81 m/s2"],
+                                                                 "load.moment": [0, 0, 0],
                                                                 "static.lay_on_wall": True})
         helical = 2.0 * math.sqrt(2.0) * math.sqrt(2.1e11 * INERTIA * WEIGHT / 0.0105)
         self.assertLess(abs(found["helical-buckling"] / (2000.0 / helical) - 1.0), 0.01)
 
     def test_wall_pressure(self):
-        """A string at rest in a horizontal hole presses most where it begins to lie: the site of 1 m there bears w l/3 and w."""
+        """A string at rest in a horizontal hole presses most where it begins to lie: the site of 1 m there bears w l/3
+        and w."""
         found, _ = sampled(failure("wall-pressure", limit="1 MPa", width="20 mm"), changes={
-            "environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True, "bit.mass": "1 g",
+            "environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True,
+            "bit.mass": "1 g",
             "time_function[0].segment.h0": 0})
         self.assertLess(abs(found["wall-pressure"] / ((WEIGHT * LIFTED / 3.0 + WEIGHT) / 0.02) - 1.0), 0.1)
 
     def test_off_bottom(self):
-        text = RIG.replace('segment = {h0 = "2 kN"}', 'segment = {table = [[0, "2 kN"], ["0.02 s", "2 kN"], ["21 ms", 0], ["61 ms", 0], '
+        text = RIG.replace('segment = {h0 = "2 kN"}',
+                           'segment = {table = [[0, "2 kN"], ["0.02 s", "2 kN"], ["21 ms", 0], ["61 ms", 0], '
                            '["62 ms", "2 kN"]]}').replace('question = "static"', 'look = "1 ms"')
         found, margins = sampled(failure("bit-off-bottom", limit="30 ms"), text)
         self.assertAlmostEqual(found["bit-off-bottom"], 0.040, 12)
@@ -426,9 +448,11 @@ class LimitTest(unittest.TestCase):
     def test_spin_of_the_bit(self):
         """A stiff string that turns with 100 rpm + 30 rpm sin: stick-slip severity 0.3."""
         text = RIG.replace('name = "turning"\nsegment = {h0 = 0}', '''name = "turning"
-segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]''').replace('question = "static"', 'look = "1 ms"')
+segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]''').replace('question = "static"',
+                                                                                                'look = "1 ms"')
         found, _ = sampled(failure("stick-slip") + failure("bit-stuck", limit="1 s"), text,
-                           {"load.moment": [0, 0, 0], "bit.mass": "1 g", "string[0].pipes.count": 1, "run.end": "0.2 s"})
+                           {"load.moment": [0, 0, 0], "bit.mass": "1 g", "string[0].pipes.count": 1,
+                            "run.end": "0.2 s"})
         self.assertAlmostEqual(found["stick-slip"], 0.3, 2)
         self.assertEqual(found["bit-stuck"], 0.0)
 
@@ -438,23 +462,29 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
         self.assertEqual(limits.longest(times, [0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]), 0.0)
         self.assertAlmostEqual(limits.longest(times, [1] * 11), 1.0)
         self.assertAlmostEqual(limits.mean_in_time(times, times), 0.5)
-        stuck = scene.loads(RIG.replace('question = "static"', "") + failure("bit-stuck", limit="0.25 s", speed="1 rad/s")).failures[0]
+        stuck = scene.loads(RIG.replace('question = "static"', "") + failure("bit-stuck", limit="0.25 s",
+                                                                             speed="1 rad/s")).failures[0]
         spin = np.array([5, 5, 0.5, -0.5, 0.2, 9, 9, 0, 0, 5, 5])
         self.assertAlmostEqual(limits.margin(stuck, times, {"spin": spin, "turning": np.full(11, 4.0)})[1], 0.2)
-        self.assertEqual(limits.margin(stuck, times, {"spin": spin, "turning": np.zeros(11)})[1], 0.0)  # the rig is at rest
+        # the rig is at rest
+        self.assertEqual(limits.margin(stuck, times, {"spin": spin, "turning": np.zeros(11)})[1], 0.0)
 
     def test_lateral_acceleration(self):
         """A string that falls: g."""
-        text = RIG.replace('name = "main"', 'name = "main"\nstart_free = ["x", "y", "z", "rx", "ry", "rz"]\nfollows_hole = false')
-        text = text[:text.index("[[time_function]]")].replace("[hole]\ndiameter = \"94 mm\"\nmu_static = 0\nmu_dynamic = 0", "") \
-            + '[run]\nend = "0.05 s"\nstep = "1 ms"\n' + text[text.index("[variability]"):].replace('question = "static"', "")
+        text = RIG.replace('name = "main"',
+                           'name = "main"\nstart_free = ["x", "y", "z", "rx", "ry", "rz"]\nfollows_hole = false')
+        text = text[:text.index("[[time_function]]")].replace("[hole]\ndiameter = \"94 mm\"\nmu_static = 0\nmu_dynamic "
+                                                              "= 0", "") \
+            + '[run]\nend = "0.05 s"\nstep = "1 ms"\n' + \
+            text[text.index("[variability]"):].replace('question = "static"', "")
         found, _ = sampled(failure("lateral-acceleration", limit="10 m/s2", from_="10 ms"), text,
                            {"environment.gravity": [0, 0, "-9.81 m/s2"]})
         self.assertAlmostEqual(found["lateral-acceleration"], 9.81, 5)
 
     def test_fatigue(self):
         """Slow push and pull of amplitude F: damage n/(N (S/(F/A))^m)."""
-        text = RIG.replace('segment = {h0 = "2 kN"}', 'segment = {kind = "harmonic", h1 = "100 kN", omega = "20 rad/s"}') \
+        text = RIG.replace('segment = {h0 = "2 kN"}',
+                           'segment = {kind = "harmonic", h1 = "100 kN", omega = "20 rad/s"}') \
             .replace('question = "static"', 'look = "1 ms"')
         found, _ = sampled(failure("fatigue", curve_stress="100 MPa", slope=4, curve_cycles=1e6), text,
                            {"load.moment": [0, 0, 0], "string[0].pipes.count": 2, "run.end": f"{math.pi / 2.0!r} s"})
@@ -465,7 +495,8 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
     def test_own(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "mine.py")
-            file.write_text("def margin(look):\n    return 3.0 - look.sim.drive(look.scene.names['feed']).force / 1000.0\n"
+            file.write_text("def margin(look):\n    return 3.0 - look.sim.drive(look.scene.names['feed']).force / "
+                            "1000.0\n"
                             "def wrong(look):\n    return {}['no key']\n", encoding="utf-8")
             found, margins = sampled(failure("own", name="mine"), own={"mine": Own(str(file), "margin")})
             self.assertAlmostEqual(margins["mine"], 1.0, 6)
@@ -481,7 +512,8 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
 
     def test_what_cannot_be_solved_is_told(self):
         sample = SceneSample(RIG + failure("rig-push", limit="1 kN"), changes={
-            "variability.scatter.key": "hole.diameter", "variability.scatter.low": "10 mm", "variability.scatter.high": "20 mm"})
+            "variability.scatter.key": "hole.diameter", "variability.scatter.low": "10 mm",
+            "variability.scatter.high": "20 mm"})
         found = sample(3, np.zeros(sample.dimension))
         self.assertEqual(found.status, FAILED)
         self.assertTrue(math.isnan(found.margins[0]))
@@ -491,7 +523,8 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
 class BadScene(unittest.TestCase):
     def test_problems(self):
         for old, new, line in (
-                ('relative = true\ndistribution = "lognormal"', 'distribution = "lognormal"\nrelative = 1', "relative = 1: must be true or false"),
+                ('relative = true\ndistribution = "lognormal"', 'distribution = "lognormal"\nrelative = 1',
+                 "relative = 1: must be true or false"),
                 ("mean = 1\ndeviation = \"30 %\"", "mean = -1\ndeviation = \"30 %\"", "mean = -1: must be > 0"),
                 ('deviation = "30 %"', 'deviation = "30 kg"', "has the unit 'kg'"),
                 ('deviation = "30 %"', "", "lognormal must have deviation"),
@@ -505,7 +538,8 @@ class BadScene(unittest.TestCase):
                 ('time_function = "rock"\ndistribution', 'time_function = "rok"\ndistribution', "did you mean rock?"),
                 ("high = 1\n", "high = 0.9\n", "must be > low = 0.95"),
                 ("mean = 0.98", "mean = 0.94", "must be within low"),
-                ('key = "string[0].pipes.outer_diameter"', 'key = "string[4].pipes.outer_diameter"', "must be a quantity that varies along"),
+                ('key = "string[0].pipes.outer_diameter"', 'key = "string[4].pipes.outer_diameter"',
+                 "must be a quantity that varies along"),
                 ('name = "pump"', 'name = "wear"', "varies already"),
                 ('kind = "fatigue"', 'kind = "fatige"', "did you mean fatigue?"),
                 ("slope = 5", "", "fatigue must have a slope"),
@@ -517,7 +551,8 @@ class BadScene(unittest.TestCase):
                 ("seed = 3", "seed = 3\nconfidence = 2", "must be 0.5 .. 1"),
                 ("seed = 3", "seed = 3\nsamples = 0", "must be 1 .. 10^9"),
                 ('end = "0.1 s"\n', "", "needs [run] end"),
-                ('correlation_time = "20 ms"\nkernel', 'correlation_time = "20 ms"\nspacing = "1 us"\nkernel', "must be <= 4000")):
+                ('correlation_time = "20 ms"\nkernel', 'correlation_time = "20 ms"\nspacing = "1 us"\nkernel',
+                 "must be <= 4000")):
             self.assertIn(old, ALL)
             with self.assertRaises(scene.SceneError) as refused:
                 scene.loads(ALL.replace(old, new, 1))
@@ -525,7 +560,8 @@ class BadScene(unittest.TestCase):
             self.assertTrue(all(one.line > 1 for one in refused.exception.problems), refused.exception)
 
     def test_contradicting_ranks(self):
-        more = '[[variability.scatter]]\nname = "third"\nkey = "hole.stribeck_speed"\ndistribution = "uniform"\nlow = "1 mm/s"\n' \
+        more = '[[variability.scatter]]\nname = "third"\nkey = "hole.stribeck_speed"\ndistribution = "uniform"\n' \
+               'low = "1 mm/s"\n' \
                'high = "2 mm/s"\n[[variability.correlation]]\nbetween = ["friction", "third"]\nrank = 0.9\n' \
                '[[variability.correlation]]\nbetween = ["stiffness", "third"]\nrank = 0.9\n'
         with self.assertRaisesRegex(scene.SceneError, "contradict"):

@@ -1,5 +1,5 @@
-"""Tests of the questions of a study: torque and drag, static states, runs, and auto; against closed forms, against each other, and against the
-analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
+"""Tests of the questions of a study: torque and drag, static states, runs, and auto; against closed forms, against each
+other, and against the analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
 import csv
 import importlib.util
 import json
@@ -30,7 +30,8 @@ from drillmbd.scene.failure import KINDS
 from test_engines import MPIRUN, there
 from test_engines import SCENE as SHORT
 
-#: A straight horizontal hole of 60 m without buoyancy: thrust = load + mu w L, pull = mu w L, torque = mu w L D/2 + 0.5 load d/3.
+#: A straight horizontal hole of 60 m without buoyancy: thrust = load + mu w L, pull = mu w L, torque = mu w L D/2 + 0.5
+#: load d/3.
 LEVEL = """[environment]
 fluid_density = 0
 [hole]
@@ -123,7 +124,8 @@ correlation_time = "0.1 s"
 
 def known_demands(sample, z):
     """Torque and drag by the analyses of the library on the whole scene, read anew for the sample."""
-    made = scene.loads(sample.text, changes={**sample.draw.changes(sample.draw.values(z)), "string[0].pipes[0].yield_strength": "500 MPa"})
+    made = scene.loads(sample.text, changes={**sample.draw.changes(sample.draw.values(z)),
+                                             "string[0].pipes[0].yield_strength": "500 MPa"})
     plan = operating(made)
     with made.new_sim() as sim:
         usual = operations_of(plan)
@@ -131,7 +133,8 @@ def known_demands(sample, z):
         pull, push, turn = rows = sim.torque_drag(chosen).rows[0]
         force = max(max(sim.torque_drag_profile(one, soft.STATIONS)["wall_force"]) for one in chosen)
     thrust = max(-row.hook_load for row in rows)
-    return [max(-push.hook_load, -turn.hook_load), pull.hook_load, turn.torque, plan.weight_on_bit / thrust, max(row.helical_share for row in rows),
+    return [max(-push.hook_load, -turn.hook_load), pull.hook_load, turn.torque, plan.weight_on_bit / thrust,
+            max(row.helical_share for row in rows),
             max(row.yield_share for row in rows), turn.torque, force / 0.02]
 
 
@@ -149,8 +152,8 @@ class SoftTest(unittest.TestCase):
         self.check(LEVEL + FIELD + ALL)
 
     def test_scenes_that_are_read_anew(self):
-        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\nmean = 0\n' \
-               'deviation = "0.3 deg"\ncorrelation_length = "20 m"\n'
+        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\n' \
+               'mean = 0\ndeviation = "0.3 deg"\ncorrelation_length = "20 m"\n'
         self.check(LEVEL + more + ALL, "survey is no factor of the numbers that it changes")
         self.assertIn("reads the scene again", SceneSample(LEVEL + more + ALL).soft.notes()[0])
 
@@ -163,7 +166,8 @@ class SoftTest(unittest.TestCase):
             self.assertAlmostEqual(push / (8000.0 + mu * WEIGHT), 1.0, 5)  # the bit's 1 g, and the helix-free contact
             self.assertAlmostEqual(pull / (mu * WEIGHT), 1.0, 5)
             around = 200.0 * math.pi / 60.0 * 0.0365
-            turned = around / math.hypot(around, 0.01)  # share of the friction that resists the rotation, beside the feed
+            # share of the friction that resists the rotation, beside the feed
+            turned = around / math.hypot(around, 0.01)
             self.assertAlmostEqual(torque / (turned * mu * WEIGHT * 0.0365 + 0.5 * 8000.0 * 0.094 / 3.0), 1.0, 5)
 
     def test_linear_gaussian(self):
@@ -179,7 +183,8 @@ class SoftTest(unittest.TestCase):
 
     def test_lock_up(self):
         """A string that no thrust moves fails by every kind that thrust decides, and has no finite demand."""
-        made = limits.Soft({"pulled out": _row(100.0), "pushed in": _row(math.nan, 1), "rotated": _row(-50.0)}, 10.0, 1e9)
+        made = limits.Soft({"pulled out": _row(100.0), "pushed in": _row(math.nan, 1), "rotated": _row(-50.0)}, 10.0,
+                           1e9)
         failures = scene.loads(LEVEL + FORCES + failure("lock-up")).failures
         found = {one.kind: limits.soft_margin(one, made) for one in failures}
         self.assertEqual(found["rig-push"], (-math.inf, math.inf))
@@ -190,22 +195,26 @@ class SoftTest(unittest.TestCase):
         """The rig overcomes what its pull leaves beyond the friction, or its torque at the radius of the rods."""
         mu, radius = 0.3, 0.0365
         for pull, torque in ((20e3, 400.0), (20e3, 2000.0)):
-            sample = SceneSample(LEVEL + failure("jamming", limit="10 kN", pull=f"{pull} N", torque=f"{torque} N m", diameter="73 mm"))
+            sample = SceneSample(LEVEL + failure("jamming", limit="10 kN", pull=f"{pull} N", torque=f"{torque} N m",
+                                                 diameter="73 mm"))
             around = 200.0 * math.pi / 60.0 * radius
             turned = mu * WEIGHT * radius * around / math.hypot(around, 0.01) + 0.5 * 8000.0 * 0.094 / 3.0
             known = max(pull - mu * WEIGHT, (torque - turned) / radius)
             found = sample(0, np.zeros(1))
             self.assertAlmostEqual(found.demands[0] / known, 1.0, 5)
             self.assertAlmostEqual(found.margins[0], found.demands[0] - 10e3, 9)
-        with self.assertRaisesRegex(scene.SceneError, 'jamming: needs question = "torque-drag"|needs question = "torque-drag"'):
-            scene.loads(LEVEL.replace('"torque-drag"', '"static"') + failure("jamming", limit="1 kN", pull="1 N", torque="1 N m", diameter="73 mm"))
+        with self.assertRaisesRegex(scene.SceneError,
+                                    'jamming: needs question = "torque-drag"|needs question = "torque-drag"'):
+            scene.loads(LEVEL.replace('"torque-drag"', '"static"') + failure("jamming", limit="1 kN", pull="1 N",
+                                                                             torque="1 N m", diameter="73 mm"))
 
     def test_leaves_seam(self):
         """An error of the dip that is the same along the hole: sin of it times the length."""
-        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\nmean = 0\n' \
-               'deviation = "0.5 deg"\ncorrelation_length = "1000 km"\nkernel = "gaussian"\n'
+        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\n' \
+               'mean = 0\ndeviation = "0.5 deg"\ncorrelation_length = "1000 km"\nkernel = "gaussian"\n'
         for question in ("torque-drag", "static"):
-            sample = SceneSample(LEVEL + more + failure("leaves-seam", limit="0.4 m") + failure("rig-pull", limit="3 kN"), asked=question)
+            sample = SceneSample(LEVEL + more + failure("leaves-seam", limit="0.4 m")
+                                 + failure("rig-pull", limit="3 kN"), asked=question)
             z = np.zeros(sample.dimension)
             z[1] = 1.3
             known = 60.0 * math.sin(math.radians(0.5 * 1.3 * sample.draw.fields[0][1].matrix[0, 0]))
@@ -216,21 +225,26 @@ class SoftTest(unittest.TestCase):
         sample = SceneSample(LEVEL + FIELD + ALL)
         points = Points("monte-carlo", 7, sample.dimension, 450)
         known = [one.margins for one in Study(sample, engines.serial).run(range(450), points.z)]
-        self.assertEqual([sample(n, points.z(n)).margins for n in (0, 199, 200, 449)], [known[n] for n in (0, 199, 200, 449)])
+        self.assertEqual([sample(n, points.z(n)).margins for n in (0, 199, 200, 449)],
+                         [known[n] for n in (0, 199, 200, 449)])
         for engine in (engines.threads(2), engines.processes(2)):
-            self.assertEqual([one.margins for one in Study(sample, engine).run(range(449, -1, -1), points.z)][::-1], known)
+            self.assertEqual([one.margins for one in Study(sample, engine).run(range(449, -1, -1), points.z)][::-1],
+                             known)
 
-    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None,
+                     "not there: mpirun, mpi4py")
     def test_mpi(self):
         """Blocks of samples on ranks, with the same digits."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "level.toml")
             path.write_text(LEVEL + ALL, encoding="utf-8")
-            words = (*MPIRUN, "3", *COMMAND, "probability", path, "-o", pathlib.Path(folder, "out"), "--samples", "450", "--engine", "mpi")
+            words = (*MPIRUN, "3", *COMMAND, "probability", path, "-o", pathlib.Path(folder, "out"), "--samples", "450",
+                     "--engine", "mpi")
             done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=300)
             self.assertEqual(done.returncode, 0, done.stderr[-800:])
             sample = SceneSample(LEVEL + ALL)
-            known = [one.margins for one in Study(sample, engines.serial).run(range(450), Points("monte-carlo", 1, 1, 450).z)]
+            known = [one.margins for one in Study(sample, engines.serial).run(range(450),
+                                                                              Points("monte-carlo", 1, 1, 450).z)]
             self.assertEqual(read_rows(pathlib.Path(folder, "out", "study.h5"))[0]["margin"].tolist(), known)
 
     @there("distributed")
@@ -256,22 +270,28 @@ def _row(hook_load, locked=0):
 
 class StaticTest(unittest.TestCase):
     def test_worst_of_three(self):
-        """Pushed in with the load of the bit, pulled out without, rotated with its torque; the bit load is 0 at time 0."""
+        """Pushed in with the load of the bit, pulled out without, rotated with its torque; the bit load is 0 at time
+        0."""
         sample = SceneSample(LEVEL + FORCES, asked="static")
         inertia = math.pi / 64.0 * (0.073 ** 4 - 0.061 ** 4)
-        lifted = (72.0 * 2.1e11 * inertia * 0.0105 / (WEIGHT / 60.0)) ** 0.25  # [m] not on the floor behind the rig, which bears 2/3 of its weight
+        # [m] not on the floor behind the rig, which bears 2/3 of its weight
+        lifted = (72.0 * 2.1e11 * inertia * 0.0105 / (WEIGHT / 60.0)) ** 0.25
         for z in (-1.0, 0.0, 1.0):
             push, pull, torque = sample(0, np.array([z])).demands
             friction = (0.3 + 0.03 * z) * WEIGHT * (1.0 - 2.0 / 3.0 * lifted / 60.0)
-            climbs = math.hypot(1.0, 0.3 + 0.03 * z)  # a string that turns lies beside the bottom, where its weight has a part along the wall
+            # a string that turns lies beside the bottom, where its weight has a part along the wall
+            climbs = math.hypot(1.0, 0.3 + 0.03 * z)
             for found in (push - 8000.0, pull, (torque - 0.5 * 8000.0 * 0.094 / 3.0) / 0.0365 * climbs):
                 self.assertLess(abs(found / friction - 1.0), 0.03)  # contact is 1.5 m apart
 
     def test_refused(self):
-        with self.assertRaisesRegex(CannotDraw, r"failure stick-slip \(stick-slip\): the question static says nothing about it; ask --question run"):
+        with self.assertRaisesRegex(CannotDraw,
+                                    r"failure stick-slip \(stick-slip\): the question static says nothing about it; "
+                                    r"ask --question run"):
             SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("stick-slip"), asked="static").names
         with self.assertRaisesRegex(CannotDraw, "from = 1 s is for runs in time"):
-            SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("rig-push", limit="1 kN", **{"from": "1 s"}), asked="torque-drag").names
+            SceneSample(LEVEL.replace('question = "torque-drag"', "")
+                        + failure("rig-push", limit="1 kN", **{"from": "1 s"}), asked="torque-drag").names
         with self.assertRaisesRegex(scene.SceneError, "needs question = \"static\" or|needs a run in time"):
             scene.loads(LEVEL + failure("stick-slip"))
 
@@ -304,8 +324,9 @@ class DemandTest(unittest.TestCase):
         self.assertIn("of the 200 of 220 samples that have one", found.sentence(0.95))
 
     def test_weighted_percentiles(self):
-        """Samples with weights, as the runs of the question auto: the intervals contain the true percentile; equal weights give the values of order
-        statistics; lost weight widens the interval on both sides; a sample with nearly all of the weight bounds nothing."""
+        """Samples with weights, as the runs of the question auto: the intervals contain the true percentile; equal
+        weights give the values of order statistics; lost weight widens the interval on both sides; a sample with nearly
+        all of the weight bounds nothing."""
         random, inside, spread = np.random.default_rng(11), {5: 0, 50: 0, 95: 0}, math.sqrt(1.09)
         for _ in range(100):
             soft = random.standard_normal(400)
@@ -313,13 +334,15 @@ class DemandTest(unittest.TestCase):
             near = soft > 1.2
             taken = near | (random.random(400) < 0.25)
             for percent in inside:
-                value, low, high = demands.weighted_percentile(run[taken], np.where(near, 1.0, 4.0)[taken], percent, 0.95)
+                value, low, high = demands.weighted_percentile(run[taken], np.where(near, 1.0, 4.0)[taken], percent,
+                                                               0.95)
                 self.assertTrue(low <= value <= high)
                 inside[percent] += low <= spread * stats.norm.ppf(percent / 100.0) <= high
         self.assertGreaterEqual(min(inside.values()), 88, inside)
         values, ones = random.standard_normal(200), np.ones(200)
         for percent in inside:
-            found, plain = demands.weighted_percentile(values, ones, percent, 0.95), demands.percentile(np.sort(values), percent, 0.95)
+            found, plain = demands.weighted_percentile(values, ones, percent,
+                                                       0.95), demands.percentile(np.sort(values), percent, 0.95)
             self.assertEqual(found[0], plain[0])
             self.assertEqual(found[0], demands.weighted_percentile(values, 3.0 * ones, percent, 0.95)[0])
             ranks = [np.searchsorted(np.sort(values), one) for one in (*found[1:], *plain[1:])]
@@ -341,12 +364,14 @@ class DemandTest(unittest.TestCase):
         for one, other in zip(a, b):
             self.assertEqual(one.name, other.name)
             self.assertAlmostEqual(one.rank, other.rank, 12)
-        self.assertAlmostEqual(b[0].rank, stats.spearmanr(np.repeat(values, twice), np.repeat(inputs[:, 0], twice))[0], 12)
+        self.assertAlmostEqual(b[0].rank, stats.spearmanr(np.repeat(values, twice), np.repeat(inputs[:, 0], twice))[0],
+                               12)
 
     def test_matters(self):
         rng = np.random.default_rng(2)
         inputs = rng.standard_normal((500, 3))
-        found = demands.matters(3.0 * inputs[:, 1] - inputs[:, 0] + 0.1 * rng.standard_normal(500), inputs, ["a", "b", "c"])
+        found = demands.matters(3.0 * inputs[:, 1] - inputs[:, 0] + 0.1 * rng.standard_normal(500), inputs,
+                                ["a", "b", "c"])
         self.assertEqual([one.name for one in found], ["b", "a", "c"])
         known = stats.spearmanr(inputs[:, 1], 3.0 * inputs[:, 1] - inputs[:, 0])[0]
         self.assertLess(abs(found[0].rank - known), 0.01)
@@ -383,7 +408,8 @@ class UntilTest(FolderTest):
         self.assertIn("is above 0.05", until.rule("below 0.05").verdict(one))
         self.assertFalse(until.rule("below 0.1").met(one))
         self.assertFalse(until.rule("30%").met(Estimate(0.0, 0.0, 0.1, 0.95, "", 1, 0, 0)))
-        self.assertIn("no sample with a margin failed", until.rule("30%").verdict(Estimate(0.0, 0.0, 0.1, 0.95, "", 2, 0, 1)))
+        self.assertIn("no sample with a margin failed",
+                      until.rule("30%").verdict(Estimate(0.0, 0.0, 0.1, 0.95, "", 2, 0, 1)))
         lost = counted([math.nan] * 5)
         for text in ("30%", "below 0.5"):
             self.assertFalse(until.rule(text).met(lost))
@@ -393,8 +419,9 @@ class UntilTest(FolderTest):
                 until.rule(text)
 
     def test_verdicts_hold(self):
-        """A study that stops as soon as its interval leaves the bound, at a probability that is the bound: a verdict is wrong in 5 of 100 cases at
-        most, though there are nine looks; in more than 20 if each look had an interval of 95 %."""
+        """A study that stops as soon as its interval leaves the bound, at a probability that is the bound: a verdict is
+        wrong in 5 of 100 cases at most, though there are nine looks; in more than 20 if each look had an interval of 95
+        %."""
         bound, repeats, most = 0.02, 400, 20_000
         self.assertEqual(until.looks(most), 9)
 
@@ -418,7 +445,8 @@ class UntilTest(FolderTest):
     def test_command(self):
         """Stops at the first look at which the rule is met, and at --samples where it never is."""
         out = self.ask("probability", self.scene, "-o", self.folder / "out", "--until", "30%", "--engine", "serial")
-        estimate = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))["estimates"]["rig-push"]
+        estimate = json.loads((self.folder / "out"
+                               / "summary.json").read_text(encoding="utf-8"))["estimates"]["rig-push"]
         self.assertLessEqual(0.5 * (estimate["high"] - estimate["low"]), 0.3 * estimate["probability"])
         self.assertIn("half of the interval is", out)
         margins = read_rows(self.folder / "out" / "study.h5")[0]["margin"][:, 0]
@@ -430,12 +458,14 @@ class UntilTest(FolderTest):
         out = self.ask("probability", self.scene, "--until", "below 1e-6", "--samples", 300, "--engine", "serial")
         self.assertIn("after", out)
         self.assertIn("write a share", self.ask("probability", self.scene, "--until", "soon", status=2))
-        self.assertIn("--until adds samples", self.ask("probability", self.scene, "--until", "30%", "--method", "sobol", status=2))
+        self.assertIn("--until adds samples", self.ask("probability", self.scene, "--until", "30%", "--method", "sobol",
+                                                       status=2))
 
 
 class MapTest(FolderTest):
     SCENE = LEVEL + failure("rig-push", limit="9.5 kN")
-    WORDS = ("--vary", "hole.diameter=94 mm,98 mm", "--vary", "failure.limit=9.3 kN:9.7 kN:3", "--samples", 400, "--engine", "serial")
+    WORDS = ("--vary", "hole.diameter=94 mm,98 mm", "--vary", "failure.limit=9.3 kN:9.7 kN:3", "--samples", 400,
+             "--engine", "serial")
 
     def test_map(self):
         out = self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
@@ -452,7 +482,8 @@ class MapTest(FolderTest):
             ends = cell["demands"]["rig-push"]["percentiles"]["P95"]
             self.assertTrue(ends["low"] <= known <= ends["high"])
         shares = [float(row["probability of rig-push"]) for row in rows]
-        self.assertEqual(shares[:3], shares[3:])  # the same random numbers, and the diameter does not matter in a straight hole
+        # the same random numbers, and the diameter does not matter in a straight hole
+        self.assertEqual(shares[:3], shares[3:])
         self.assertTrue(shares[0] > shares[1] > shares[2])
         self.assertEqual([row["fails only here"] for row in rows], ["0"] * 6)
         self.assertEqual(int(rows[1]["fails only in the first cell"]), round(400 * (shares[0] - shares[1])))
@@ -460,7 +491,8 @@ class MapTest(FolderTest):
         self.assertGreater((self.folder / "out" / "map.png").stat().st_size, 5000)
         before = read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist()
         self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
-        self.assertEqual(read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist(), before)  # nothing is computed again
+        # nothing is computed again
+        self.assertEqual(read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist(), before)
 
     def test_a_second_master(self):
         """It is refused at once and changes nothing; afterwards the folder is free."""
@@ -468,7 +500,8 @@ class MapTest(FolderTest):
         folder = self.folder / "out"
         folder.mkdir()
         lock = Lock(folder / "map")
-        words = ("probability", self.scene, "-o", folder, "--vary", "hole.diameter=94 mm,98 mm", "--samples", 20, "--engine", "serial")
+        words = ("probability", self.scene, "-o", folder, "--vary", "hole.diameter=94 mm,98 mm", "--samples", 20,
+                 "--engine", "serial")
         said = self.ask(*words, status=2)
         self.assertIn("another run writes it now; wait for it, or give another --output folder", said)
         self.assertNotIn("cell 1", said)
@@ -477,13 +510,16 @@ class MapTest(FolderTest):
         self.assertIn("cell 2", self.ask(*words))
 
     def test_a_cell_that_cannot_be(self):
-        out = self.ask("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20, "--engine", "serial", status=1)
+        out = self.ask("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20,
+                       "--engine", "serial", status=1)
         self.assertNotIn("Traceback", out)
 
     def test_refused(self):
-        for words, wanted in ((("--vary", "x"), "write KEY=V1,V2"), (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
+        for words, wanted in ((("--vary", "x"), "write KEY=V1,V2"),
+                              (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
                             (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "each key once"),
-                            (("--vary", "hole.diameter=94 mm", "--method", "subset"), "leave --indices and --method subset out")):
+                            (("--vary", "hole.diameter=94 mm", "--method", "subset"),
+                             "leave --indices and --method subset out")):
             self.assertIn(wanted, self.ask("probability", self.scene, *words, status=2))
         said = self.ask("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
         self.assertIn("drillmbd probability", said)
@@ -494,7 +530,8 @@ class AutoTest(FolderTest):
     SCENE = SHORT.replace('limit = "111 N m"', 'limit = "1.5 N m"')
 
     def test_unbiased(self):
-        """Torque and drag that are wrong for some of the samples: the estimate is right in the mean, its interval in 95 of 100."""
+        """Torque and drag that are wrong for some of the samples: the estimate is right in the mean, its interval in 95
+        of 100."""
         rng, truth, values, inside, repeats = np.random.default_rng(3), 0.0, [], 0, 300
         a, b = 1.2, 0.8
         truth = float(stats.norm.sf(a / math.hypot(1.0, b)))
@@ -517,9 +554,11 @@ class AutoTest(FolderTest):
 
     def test_all_runs_are_lost(self):
         """No probability, also where torque and drag of all samples predict no failure."""
-        self.scene = self.write("lost.toml", self.SCENE + "[sim]\nnewton_tolerance = 1e-14\nmax_iterations = 2\nmax_cuts = 0\n")
+        self.scene = self.write("lost.toml",
+                                self.SCENE + "[sim]\nnewton_tolerance = 1e-14\nmax_iterations = 2\nmax_cuts = 0\n")
         with unittest.mock.patch.object(auto, "LEAST", 4), unittest.mock.patch.object(auto.CommandOutput, "say") as say:
-            self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto", status=1)
+            self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                     "--question", "auto", status=1)
         out = "\n".join(str(one.args[0]) for one in say.call_args_list)
         self.assertRegex(out, r"any failure: not assessed, because none of [0-9]+ runs has a margin")
         self.assertNotIn("interval", out)
@@ -530,7 +569,8 @@ class AutoTest(FolderTest):
         """The same decision for every sample that both computed."""
         self.ask("probability", self.scene, "-o", self.folder / "plain", "--samples", 40, "--workers", 2)
         with unittest.mock.patch.object(auto, "LEAST", 4):
-            out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
+            out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                           "--question", "auto")
         plain = {int(row["number"]): row["margin"].tolist() for row in read_rows(self.folder / "plain" / "study.h5")[0]}
         rows = read_rows(self.folder / "auto" / "study.h5")[0]
         self.assertTrue(0 < len(rows) < 40, len(rows))
@@ -542,14 +582,16 @@ class AutoTest(FolderTest):
         self.assertTrue(found["low"] <= known <= found["high"])
         self.assertIn("others with the weight 10", out)
         self.assertEqual(len(read_rows(self.folder / "auto" / "study_torque_drag.h5")[0]), 40)
-        again = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
+        again = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                         "--question", "auto")
         self.assertIn(f"{40 - len(rows)} samples computed", again)  # so few are all run
         summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
         self.assertAlmostEqual(summary["estimates"]["any failure"]["probability"], known, 12)
         whole = json.loads((self.folder / "plain" / "summary.json").read_text(encoding="utf-8"))["demands"]
         self.assertEqual(summary["demands"].keys(), whole.keys())
         for name, demand in whole.items():
-            self.assertEqual([one["value"] for one in summary["demands"][name]["percentiles"].values()], [one["value"] for one in demand["percentiles"].values()])
+            self.assertEqual([one["value"] for one in summary["demands"][name]["percentiles"].values()],
+                             [one["value"] for one in demand["percentiles"].values()])
         self.assertIn("runs by their weights) P5", out)
         self.assertIn("Monte Carlo study", self.ask(
             "probability", self.scene, "--question", "auto", "--until", "30%", status=2))

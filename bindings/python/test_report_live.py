@@ -1,4 +1,5 @@
-"""The report that runs its scene: the packed page is that of drillmbd live; where it cannot be made the report still comes, with the reason."""
+"""The report that runs its scene: the packed page is that of drillmbd live; where it cannot be made the report still
+comes, with the reason."""
 import base64
 import gzip
 import json
@@ -39,15 +40,18 @@ class ReportLive(FolderTest):
 
     def report(self, *more, web=None):
         target = pathlib.Path(self.folder) / "out"
-        done = subprocess.run([*COMMAND, "report", str(self.scene), "-o", str(target), *more], capture_output=True, text=True,
+        done = subprocess.run([*COMMAND, "report", str(self.scene), "-o", str(target), *more], capture_output=True,
+                              text=True,
                               env={**ENVIRONMENT, "DRILLMBD_WEB": str(web or self.package)})
         self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout, (target / "report.html").read_text(encoding="utf-8"), json.loads((target / "summary.json").read_text(encoding="utf-8"))
+        page, summary = ((target / name).read_text(encoding="utf-8") for name in ("report.html", "summary.json"))
+        return done.stdout, page, json.loads(summary)
 
     def test_the_page_of_the_scene_is_in_the_report(self):
         _, page, summary = self.report("--live")
         packed = re.search(r'id="livepage">(.*?)</script>', page)[1]
-        self.assertEqual(gzip.decompress(base64.b64decode(packed)).decode(), live.page(scene.load(self.scene), str(self.scene), self.package, packed=True))
+        self.assertEqual(gzip.decompress(base64.b64decode(packed)).decode(),
+                         live.page(scene.load(self.scene), str(self.scene), self.package, packed=True))
         self.assertIn('<button id="start">Start</button>', page)
         self.assertNotIn("not included", page)
         self.assertNotIn("Scene to run in this page", [one["title"] for one in summary["verdicts"]])
@@ -86,7 +90,8 @@ class ReportLive(FolderTest):
             self.assertIn("must be <= 0.001 MB", tile.text)
             loaded.model = Model()
             loaded.model.add_pipes(2)
-            loaded.model.add_drive(component=enums.RX, kind=enums.DRIVE_LOAD, time_function=loaded.model.add_time_function(lambda time: time))
+            loaded.model.add_drive(component=enums.RX, kind=enums.DRIVE_LOAD,
+                                   time_function=loaded.model.add_time_function(lambda time: time))
             loaded.model.compile()
             text, tile = report_live.packed_page(loaded, str(self.scene), Language())
         self.assertEqual((text, tile.verdict), ("", NOT_COMPUTED))

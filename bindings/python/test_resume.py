@@ -1,4 +1,5 @@
-"""Tests of run and report that are stopped and go on: to the last bit as if nothing had happened, and only from a state of their own."""
+"""Tests of run and report that are stopped and go on: to the last bit as if nothing had happened, and only from a state
+of their own."""
 import json
 import signal
 import subprocess
@@ -96,7 +97,8 @@ class ResumeTest(FolderTest):
         self.assertEqual(sorted(a["files"]), sorted(b["files"]))
         for name in a["files"]:
             if name.endswith((".csv", ".vtp")):
-                self.assertEqual((self.folder / first / name).read_bytes(), (self.folder / second / name).read_bytes(), name)
+                self.assertEqual((self.folder / first / name).read_bytes(), (self.folder / second / name).read_bytes(),
+                                 name)
 
     def test_same_bits(self):
         """Stopped twice within stretches and once between two, with all that counts on the way."""
@@ -116,7 +118,8 @@ class ResumeTest(FolderTest):
 
     def test_steps_of_its_own_choice(self):
         """Without a step the run is divided into hundredths of all of it, not of the rest."""
-        self.scene.write_text(SCENE.replace('step = "1 ms"\n', "").replace('vtk_interval = "0.05 s"\n', ""), encoding="utf-8")
+        self.scene.write_text(SCENE.replace('step = "1 ms"\n', "").replace('vtk_interval = "0.05 s"\n', ""),
+                              encoding="utf-8")
         self.ask("run", self.scene, "-o", self.folder / "whole")
         real, seen = mbd.Sim.advance, []
 
@@ -159,23 +162,27 @@ class ResumeTest(FolderTest):
         self.assertIn("continues at 0.04 s", self.ask("run", self.scene, "--units", "field", "-o", self.folder / "out"))
 
     def test_damaged_state(self):
-        """A file that is none, or half of one, is passed over; bytes of the state that do not fit are refused with the remedy."""
+        """A file that is none, or half of one, is passed over; bytes of the state that do not fit are refused with the
+        remedy."""
         self.stop_at(40, "run", self.scene, "-o", self.folder / "out")
         file = self.folder / "out" / run_state.FILE
         whole = file.read_bytes()
         for content in (b"", b"no archive", whole[:len(whole) // 2]):
             file.write_bytes(content)
-            self.assertIn("cannot be read; the run starts again", self.ask("run", self.scene, "-o", self.folder / "out"))
+            self.assertIn("cannot be read; the run starts again",
+                          self.ask("run", self.scene, "-o", self.folder / "out"))
         import numpy
         file.write_bytes(whole)
         with numpy.load(file) as read:
             arrays = {name: read[name] for name in read.files}
         arrays["sim"] = arrays["sim"][:-8]
         numpy.savez(file, **arrays)
-        self.assertIn("remove it, and the run starts again", self.ask("run", self.scene, "-o", self.folder / "out", status=2))
+        self.assertIn("remove it, and the run starts again", self.ask("run", self.scene, "-o", self.folder / "out",
+                                                                      status=2))
 
     def test_nothing_to_go_on_from(self):
-        """Without a folder, and after a second Ctrl-C that came between a step and its samples, the run starts again and says so."""
+        """Without a folder, and after a second Ctrl-C that came between a step and its samples, the run starts again
+        and says so."""
         real = mbd.Sim.step
 
         def impatient(sim, duration):

@@ -51,28 +51,35 @@ class RodsTest(FolderTest):
     SCENE = SCENE
 
     def test_no_all_clear_without_a_load_on_the_bit(self):
-        """Thrust and torque of drilling are not known then: no OK, and it is said; a limit of the pull alone is assessed."""
+        """Thrust and torque of drilling are not known then: no OK, and it is said; a limit of the pull alone is
+        assessed."""
         bare = SCENE.replace('load = "5 kN"\n', "")
-        for limits, cleared in (('[limits]\ntorque = "50 kN m"\npull = "500 kN"\n', False), ('[limits]\npull = "500 kN"\n', True)):
+        for limits, cleared in (('[limits]\ntorque = "50 kN m"\npull = "500 kN"\n', False),
+                                ('[limits]\npull = "500 kN"\n', True)):
             for text, drilled in ((bare, False), (SCENE, True)):
                 scene = self.write("bare.toml", text + limits)
                 out = self.ask("rod-by-rod", scene)
-                self.assertEqual((", OK\n" in out, "drilling is not assessed" in out), (cleared or drilled, not cleared and not drilled), out)
-                self.assertEqual("drilling is not assessed" in self.ask("torque-drag", scene, "--depths", "2"), not cleared and not drilled)
-        law = self.write("law.toml", SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload') + '[limits]\ntorque = "50 kN m"\n')
+                self.assertEqual((", OK\n" in out, "drilling is not assessed" in out),
+                                 (cleared or drilled, not cleared and not drilled), out)
+                self.assertEqual("drilling is not assessed" in self.ask("torque-drag", scene, "--depths", "2"),
+                                 not cleared and not drilled)
+        law = self.write("law.toml", SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload')
+                         + '[limits]\ntorque = "50 kN m"\n')
         for command in ("rod-by-rod", "torque-drag"):
             self.assertIn("the torque of drilling is not assessed", self.ask(command, law))
             self.assertNotIn("not assessed, because that", self.ask(command, law, "--torque-on-bit", "100 N m"))
 
     def test_each_number_of_rods(self):
-        """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they reach."""
+        """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they
+        reach."""
         out, summary = self.answer("rod-by-rod")
         rows = summary["rod_by_rod"]["main"]["rods"]
         self.assertEqual([row["depth_m"] for row in rows], [5.0, 8.0, 9.5, 11.0, 12.5, 14.0, 15.5, 17.0, 18.5, 20.0])
         for rods in (1, 2, 5, 10):
             text = SCENE.replace("count = 2", f"count = {min(rods, 2)}")
             text = text.replace("count = 8", f"count = {rods - 2}") if rods > 2 else text.replace(
-                text[text.index("[[string.pipes]]\ncount = 8"):text.index("[[string.pipes]]\ncount = " + str(min(rods, 2)))], "")
+                text[text.index("[[string.pipes]]\ncount = 8"):text.index("[[string.pipes]]\ncount = "
+                                                                          + str(min(rods, 2)))], "")
             with scenes.load(self.write("few.toml", text)).new_sim() as sim:
                 from drillmbd.operating import operating, operations_of
                 found = sim.torque_drag(operations_of(operating(scenes.load(self.folder / "few.toml")))).rows[0]
@@ -95,7 +102,8 @@ class RodsTest(FolderTest):
         self.assertEqual(found["rods_within_limits"], 6)
         self.assertEqual([row["verdict"] for row in found["rods"]][6:], ["OVER"] * 4)
         self.assertIn("6 rods stay within the given limits, bit at 14 m; rod 7 exceeds make-up torque", out)
-        self.scene = self.write("limits.toml", SCENE + '[limits]\ntorque = "100 kN m"\npush = "100 kN"\npull = "100 kN"\n')
+        self.scene = self.write("limits.toml",
+                                SCENE + '[limits]\ntorque = "100 kN m"\npush = "100 kN"\npull = "100 kN"\n')
         out, summary = self.answer("rod-by-rod", "--make-up", "100 kN m")
         self.assertIn("all 10 rods stay within the given limits", out)
         self.assertNotIn("torque: not assessed", out)
@@ -104,7 +112,8 @@ class RodsTest(FolderTest):
 
     def test_lock_up(self):
         """A string that locks up is over any limit, and without one too."""
-        loads = {key: rig_limits.Load(math.inf if key == "push" else 0.0, "slide") for key, _, _ in rig_limits.QUANTITIES}
+        loads = {key: rig_limits.Load(math.inf if key == "push" else 0.0, "slide")
+                 for key, _, _ in rig_limits.QUANTITIES}
         free = {key: rig_limits.Load(1.0, "drill") for key, _, _ in rig_limits.QUANTITIES}
         rows = [rod_by_rod.Row(1, 3.0, free), rod_by_rod.Row(2, 6.0, loads)]
         for limits in ({}, {"torque": 5.0}):
@@ -122,7 +131,8 @@ class RodsTest(FolderTest):
         self.assertIn("ft-lbf", out)
 
     def test_sweep(self):
-        self.ask("sweep", self.scene, "rod-by-rod", "--vary", "hole.mu_dynamic=0.2,0.3", "-o", self.folder / "sweep", "-q")
+        self.ask("sweep", self.scene, "rod-by-rod", "--vary", "hole.mu_dynamic=0.2,0.3", "-o", self.folder / "sweep",
+                 "-q")
         with open(self.folder / "sweep" / "sweep.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["status"] for row in rows], ["ok", "ok"])

@@ -1,5 +1,5 @@
-"""Tests of rotating strings: the linear state of response and speeds against a run in time, critical speeds over a range and in time, and
-the friction table of the wall.
+"""Tests of rotating strings: the linear state of response and speeds against a run in time, critical speeds over a
+range and in time, and the friction table of the wall.
 Equations: eq:sliding.state."""
 import csv
 import dataclasses
@@ -16,7 +16,8 @@ needs("numpy")
 import numpy  # noqa: E402
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import critical_speeds, live_scene, no_response, report_basis, report_linear, rig_torque, rotating, scene as scenes, speed_check, speed_range  # noqa: E402
+from drillmbd import (critical_speeds, live_scene, no_response, report_basis, report_linear, rig_torque, rotating,
+                      scene as scenes, speed_check, speed_range)  # noqa: E402
 from drillmbd import station  # noqa: E402
 from drillmbd.operating import operating  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
@@ -94,7 +95,8 @@ class SpeedsTest(FolderTest):
     def assert_no_verdict(self):
         """The tile of the report gives no all-clear."""
         scene = scenes.load(self.scene)
-        self.assertEqual(report_linear.speeds_tile(report_linear.speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+        self.assertEqual(report_linear.speeds_tile(report_linear.speeds(scene, print), operating(scene)).verdict,
+                         "NOT ASSESSED")
 
 
 class LinearStateTest(SpeedsTest):
@@ -107,18 +109,23 @@ class LinearStateTest(SpeedsTest):
             scene = scenes.load(self.scene, change)
             _, response = rotating.linear(
                 scene, "response", lambda sim, state: sim.static(**state.static),
-                lambda sim, state: sim.response(state.scene.excitations(), state.scene.response_outputs("response"), **state.options), self.fail)
+                lambda sim, state: sim.response(state.scene.excitations(), state.scene.response_outputs("response"),
+                                                **state.options), self.fail)
             state, (bands, severity) = rotating.linear(
                 scene, "speeds", lambda sim, state: sim.static(**state.static),
-                lambda sim, state: sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), [1e-6], **state.options), self.fail)
+                lambda sim, state: sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), [1e-6],
+                                              **state.options), self.fail)
             numpy.testing.assert_allclose(numpy.array(severity) * 1e-6, abs(response.transfer(output=0)), rtol=1e-9)
             self.assertGreater(state.rotation, 10.0)
 
     def test_a_run_in_time_swings_as_much(self):
-        """At 100 rpm, far below the resonance, the harmonic of the turning in a run is that of the linear state, 0.967 of it across and upwards.
-        At rest without friction the string lies in the middle of the bottom and moves upwards a hundred times less; at rest with friction
-        the wall holds it, and it moves across half as much. Drag damps the start away."""
-        scene = scenes.load(self.write("drag.toml", SCENE.replace("[hole]", '[environment]\nlateral_damping = "60 N s/m2"\n[hole]', 1)))
+        """At 100 rpm, far below the resonance, the harmonic of the turning in a run is that of the linear state, 0.967
+        of it across and upwards.
+        At rest without friction the string lies in the middle of the bottom and moves upwards a hundred times less; at
+        rest with friction the wall holds it, and it moves across half as much. Drag damps the start away."""
+        scene = scenes.load(self.write("drag.toml",
+                                       SCENE.replace("[hole]", '[environment]\nlateral_damping = "60 N s/m2"\n[hole]',
+                                                     1)))
         speed, place = 100.0 * rotating.RPM, station(scene.names["main"], 6)
         outputs = [(place, "vibration_y"), (place, "vibration_z")]
         state = rotating.sliding(scene, "response")
@@ -177,7 +184,8 @@ class LinearStateTest(SpeedsTest):
         self.assertIn("no solution", notes[0])
 
     def test_a_refused_state_is_no_all_clear(self):
-        """The command, its range and the report say not assessed where the sliding state has no solution and no band was found."""
+        """The command, its range and the report say not assessed where the sliding state has no solution and no band
+        was found."""
         self.scene = self.write("high.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + RANGE)
         self.assertIn("no critical speed between", self.ask("speeds", self.scene))
         static = mbd.Sim.static
@@ -198,10 +206,12 @@ class LinearStateTest(SpeedsTest):
 
 class PerRevolutionTest(FolderTest):
     """A head whose own time function oscillates with its revolutions: 100 rpm and 5 % of it."""
-    SCENE = SCENE.replace('segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}', """segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+    SCENE = SCENE.replace('segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}',
+                          """segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
 [[time_function]]
 name = "worn"
-segment = [{kind = "step5", x1 = "1 s", h1 = "100 rpm"}, {kind = "per-revolution", of = "turning", h1 = "2 rpm", share = "-5 %"}]""").replace(
+segment = [{kind = "step5", x1 = "1 s", h1 = "100 rpm"},
+           {kind = "per-revolution", of = "turning", h1 = "2 rpm", share = "-5 %"}]""").replace(
         'time_function = "turning"', 'time_function = "worn"')
 
     def test_operation(self):
@@ -211,7 +221,8 @@ segment = [{kind = "step5", x1 = "1 s", h1 = "100 rpm"}, {kind = "per-revolution
         self.assertAlmostEqual(rotating.options_of(scene, "speeds")["spin"], most, 12)
         self.assertEqual(str(words.describe(scene, 0.0)[-2]), "feed 0 mm/s, rotation 107 rpm")
         live = live_scene.with_inputs(scene)
-        slider = next(arguments[0] for name, arguments in live if name == "add_input" and arguments[0]["name"] == "rotation")
+        slider = next(arguments[0] for name, arguments in live if name == "add_input"
+                      and arguments[0]["name"] == "rotation")
         self.assertAlmostEqual(slider["high"], 2.0 * most, 12)
 
     def test_a_share_of_no_rotation(self):
@@ -234,8 +245,10 @@ class RigTorqueTest(FolderTest):
         "[speeds]", '[speeds]\nspin = "100 rpm"').replace("[response]", '[response]\nspin = "100 rpm"')
 
     def test_torque_of_friction(self):
-        """Of a round string the wall takes T = mu N r, N being all normal forces of the wall; v / sqrt(v^2 + v_eps^2) of it at v = 10 rad/s x r."""
-        text = self.SCENE.replace('eccentricity = "0.5 mm"\n', "").replace('mass = "6 kg"\ndiameter = "94 mm"', 'mass = "6 kg"\ndiameter = "73 mm"')
+        """Of a round string the wall takes T = mu N r, N being all normal forces of the wall; v / sqrt(v^2 + v_eps^2)
+        of it at v = 10 rad/s x r."""
+        text = self.SCENE.replace('eccentricity = "0.5 mm"\n', "").replace('mass = "6 kg"\ndiameter = "94 mm"',
+                                                                           'mass = "6 kg"\ndiameter = "73 mm"')
         scene = scenes.load(self.write("round.toml", text))
         turned, torque = rig_torque.balanced(scene, {"slip_rotation": 10.0})
         with turned.new_sim() as sim:
@@ -245,11 +258,13 @@ class RigTorqueTest(FolderTest):
         self.assertAlmostEqual(torque * math.hypot(1.0, 1e-3 / 0.365) / (0.3 * wall * 0.0365), 1.0, delta=1e-7)
 
     def test_same_amplitude_as_by_speed(self):
-        """Lateral amplitudes below the resonance are those of the string that a speed turns to 1 %, the part in which its rotation swings."""
+        """Lateral amplitudes below the resonance are those of the string that a speed turns to 1 %, the part in which
+        its rotation swings."""
         severity = {}
         for name, text in (("torque", self.SCENE), ("speed", SCENE.replace("[speeds]", '[speeds]\nspin = "100 rpm"'))):
             notes = []
-            found = critical_speeds.analyse(scenes.load(self.write(f"{name}.toml", text)), lambda sim, state: sim.static(**state.static), notes.append)
+            found = critical_speeds.analyse(scenes.load(self.write(f"{name}.toml", text)),
+                                            lambda sim, state: sim.static(**state.static), notes.append)
             self.assertEqual((notes, found.state.refused, found.state.torque is None), ([], False, name == "speed"))
             severity[name] = numpy.array(found.severity[:6])
         numpy.testing.assert_allclose(severity["torque"], severity["speed"], rtol=1e-2)
@@ -268,21 +283,28 @@ class RigTorqueTest(FolderTest):
         self.assertEqual(summary["speeds_range"]["not_assessed"], 0)
 
     def test_left_alone(self):
-        """Nothing is balanced where a speed is prescribed, two drives turn, the string does not turn, or the held string has no state."""
+        """Nothing is balanced where a speed is prescribed, two drives turn, the string does not turn, or the held
+        string has no state."""
         slip = {"slip_rotation": 10.0}
         speed, torque = scenes.load(self.write("speed.toml", SCENE)), scenes.load(self.scene)
-        two = scenes.load(self.write("two.toml", self.SCENE + '[[drive]]\nkind = "load"\ncomponent = "rx"\ntime_function = "turning"\n'))
+        two = scenes.load(self.write("two.toml", self.SCENE
+                                     + '[[drive]]\nkind = "load"\ncomponent = "rx"\ntime_function = "turning"\n'))
         for scene, static in ((speed, slip), (two, slip), (torque, {})):
             self.assertEqual(rig_torque.balanced(scene, static), (scene, None))
-        with unittest.mock.patch.object(mbd.Sim, "static", side_effect=mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")):
+        with unittest.mock.patch.object(mbd.Sim, "static",
+                                        side_effect=mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")):
             self.assertEqual(rig_torque.balanced(torque, slip), (torque, None))
 
 
 class NoResponseTest(SpeedsTest):
     """An output that only rounding moves has no response, and no all-clear."""
-    SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[time_function]]", 'inclination = "0 deg"\n[[time_function]]', 1).replace(
-        'eccentricity = "0.5 mm"', "").replace('[[response.excitation]]\nkind = "eccentricity"', '[[response.excitation]]\nkind = "drive"\nplace = "head"\n'
-                                               'amplitude = "1 rpm"').replace("[[speeds.order]]", '[[speeds.order]]\nkind = "drive"\nplace = "head"\n'
+    SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[time_function]]", 'inclination = "0 deg"\n[[time_function]]',
+                                                      1).replace(
+        'eccentricity = "0.5 mm"', "").replace('[[response.excitation]]\nkind = "eccentricity"',
+                                               '[[response.excitation]]\nkind = "drive"\nplace = "head"\n'
+                                               'amplitude = "1 rpm"').replace("[[speeds.order]]",
+                                                                              '[[speeds.order]]\nkind = "drive"\nplace '
+                                                                              '= "head"\n'
                                                                               'amplitude = "1 rpm"')
 
     def peaks(self, text):
@@ -291,7 +313,8 @@ class NoResponseTest(SpeedsTest):
         return out, summary["response"]["middle [m]" if "middle [m]" in summary["response"] else "middle [rad]"]
 
     def test_response(self):
-        """Torsion of an upright string moves no rod across; without an amplitude nothing is excited; the rotation itself responds."""
+        """Torsion of an upright string moves no rod across; without an amplitude nothing is excited; the rotation
+        itself responds."""
         out, peak = self.peaks(self.SCENE)
         self.assertIn("middle [m]: no response, because the excitation moves the string, but not this output", out)
         self.assertIsNone(peak["amplitude"])
@@ -310,8 +333,10 @@ class NoResponseTest(SpeedsTest):
         self.assert_no_verdict()
 
     def test_a_silent_output_beside_one_that_moves(self):
-        """Torsion turns an upright string and does not move it across: the second output is named, and no speed is called free."""
-        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = "vibration-rz"\nlimit = "1e6 deg"\n')
+        """Torsion turns an upright string and does not move it across: the second output is named, and no speed is
+        called free."""
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = '
+                   '"vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning)
         out, summary = self.answer("speeds")
         self.assertIn("middle [m]: not assessed, because the excitation moves the string, but not this output", out)
@@ -327,20 +352,24 @@ class NoResponseTest(SpeedsTest):
         self.assertEqual(tile.verdict, "NOT ASSESSED")
         demands = {key: Demand(key, "N", None) for key in ("push", "pull", "torque")}
         tiles = [*(Tile(key, "", "", "NOT ASSESSED") for key in demands), tile]
-        rows = {str(row[0]): str(row[1]) for row in report_basis.limits_at_the_rig(demands, tiles, speeds, operating(scene), SI)}
+        rows = {str(row[0]): str(row[1]) for row in report_basis.limits_at_the_rig(demands, tiles, speeds,
+                                                                                   operating(scene), SI)}
         self.assertEqual(rows["Rotary speed"], "not known: not all outputs and orders were assessed")
 
     def test_a_silent_output_over_a_range(self):
         """No case of the range is called free of critical speeds."""
-        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = "vibration-rz"\nlimit = "1e6 deg"\n')
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = '
+                   '"vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning + RANGE)
         out, summary = self.answer("speeds")
         self.assertRegex(out, r"\(4 cases, all combinations\): not assessed; 4 of the 4 cases")
         self.assertEqual(summary["speeds_range"]["not_assessed"], 4)
 
     def test_a_silent_order_is_no_all_clear(self):
-        """One order that moves no output beside one that does: no speed is called free of critical ones, by the command and its check."""
-        self.scene = self.write("two.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + '[[speeds.order]]\norder = 2\nkind = "drive"\n'
+        """One order that moves no output beside one that does: no speed is called free of critical ones, by the command
+        and its check."""
+        self.scene = self.write("two.toml", SCENE.replace("threshold = 100", "threshold = 1e6")
+                                + '[[speeds.order]]\norder = 2\nkind = "drive"\n'
                                 'place = "feed"\namplitude = "0 mm/s"\n')
         out, summary = self.answer("speeds")
         self.assertIn("speeds: not assessed, because 1 of the 2 orders move no output", out)
@@ -357,7 +386,8 @@ class NoResponseTest(SpeedsTest):
         self.assertEqual(speed_check._linear(refused, 10.0), "not assessed")
 
     def test_bounds(self):
-        """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if it is 0."""
+        """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if
+        it is 0."""
         move, turn = mbd.output_of("vibration_y"), mbd.output_of("vibration_rx")
         force = mbd.output_of("contact_friction_axial")
         self.assertIs(no_response._judged(1e-16, move, [(turn, 1e-3)]), no_response.NO_RESPONSE)
@@ -379,7 +409,8 @@ class RangeTest(FolderTest):
         self.assertIn("range: not assessed, because the scene gives no uncertain diameter or friction", out)
         self.assertIsNone(summary["speeds_range"])
         hint = re.search(r"keys = \[.*?\] and relative = true", out)[0].replace(" and ", "\n")
-        self.scene = self.write("hint.toml", SCENE + f'[[variability.scatter]]\n{hint}\ndistribution = "uniform"\nlow = 0.7\nhigh = 1.3\n')
+        self.scene = self.write("hint.toml", SCENE
+                                + f'[[variability.scatter]]\n{hint}\ndistribution = "uniform"\nlow = 0.7\nhigh = 1.3\n')
         self.assertEqual(self.answer("speeds")[1]["speeds_range"]["not_assessed"], 0)
 
     def test_the_reason_of_an_incomplete_static_state(self):
@@ -392,11 +423,16 @@ class RangeTest(FolderTest):
         self.assertIn("not stable", out.note_text.call_args[0][0])
 
     def test_a_gap_between_the_bands_of_a_range(self):
-        """The bands of both ends are apart, and that of the middle lies between them: speeds there are not called free."""
+        """The bands of both ends are apart, and that of the middle lies between them: speeds there are not called
+        free."""
         found = {}
         for high in (1.1, 1.2):
-            scatter = f'[[variability.scatter]]\nkey = "hole.diameter"\nrelative = true\ndistribution = "uniform"\nlow = 1\nhigh = {high}\n'
-            self.scene = self.write(f"gap{high}.toml", SCENE.replace('threshold = 100', 'threshold = 3000').replace('speed_high = "240 rpm"', 'speed_high = "300 rpm"') + scatter)
+            scatter = ('[[variability.scatter]]\nkey = "hole.diameter"\nrelative = true\ndistribution = '
+                       f'"uniform"\nlow = 1\nhigh = {high}\n')
+            self.scene = self.write(f"gap{high}.toml",
+                                    SCENE.replace('threshold = 100',
+                                                  'threshold = 3000').replace('speed_high = "240 rpm"',
+                                                                              'speed_high = "300 rpm"') + scatter)
             out, summary = self.answer("speeds")
             found[high] = summary["speeds_range"]["bands_rpm"]
             self.assertEqual("speeds between these bands are not shown to be free" in out, len(found[high]) > 1, out)
@@ -409,16 +445,19 @@ class RangeTest(FolderTest):
         text = SCENE.replace('threshold = 100', 'threshold = 1000')
         self.scene = self.write("range.toml", text + RANGE)
         out, summary = self.answer("speeds")
-        self.assertIn("over the range of friction (0.2 .. 0.4), diameter (0.094 .. 0.104 m) (4 cases, all combinations)", out)
+        self.assertIn("over the range of friction (0.2 .. 0.4), diameter (0.094 .. 0.104 m) (4 cases, all "
+                      "combinations)", out)
         ranges = summary["speeds_range"]["bands_rpm"]
         lows = []
         for diameter in ("94 mm", "104 mm"):
             for mu in (0.2, 0.4):
-                breakpoint = self.write("breakpoint.toml", text.replace('"94 mm"', f'"{diameter}"', 1).replace("0.30", str(mu)))
+                breakpoint = self.write("breakpoint.toml", text.replace('"94 mm"', f'"{diameter}"',
+                                                                        1).replace("0.30", str(mu)))
                 self.scene = breakpoint
                 for band in self.answer("speeds")[1]["speeds"]:
                     lows.append(band["low_rpm"])
-                    self.assertTrue(any(low <= band["low_rpm"] + 1e-6 and band["high_rpm"] <= high + 1e-6 for low, high in ranges))
+                    self.assertTrue(any(low <= band["low_rpm"] + 1e-6 and band["high_rpm"] <= high + 1e-6
+                                        for low, high in ranges))
         self.assertAlmostEqual(min(low for low, _ in ranges), min(lows), 6)
         self.assertGreater(max(lows) - min(lows), 5.0)
 
@@ -428,7 +467,8 @@ class CheckTest(FolderTest):
     SCENE = SCENE
 
     def test_marks(self):
-        """A slow string is steady; one at the resonance of the rod on the bottom of its hole is not. Numbers of the table."""
+        """A slow string is steady; one at the resonance of the rod on the bottom of its hole is not. Numbers of the
+        table."""
         self.scene = self.write("check.toml", SCENE.replace('speed_high = "240 rpm"', 'speed_high = "300 rpm"'))
         out, summary = self.answer("speeds", "--check", "2")
         rows = summary["speeds_check"]["speeds"]
@@ -446,7 +486,9 @@ class CheckTest(FolderTest):
 
     def test_what_cannot_be_checked(self):
         self.assertIn("outside 2 .. 100", self.ask("speeds", self.scene, "--check", "1", status=2))
-        load = self.write("load.toml", SCENE.replace('component = "rx"', 'component = "rx"\nkind = "load"').replace("100 rpm", "0 N m").replace(
+        load = self.write("load.toml",
+                          SCENE.replace('component = "rx"',
+                                        'component = "rx"\nkind = "load"').replace("100 rpm", "0 N m").replace(
             'eccentricity = "0.5 mm"', ""))
         out = self.ask("speeds", load, "--check")
         self.assertIn("check in time: not assessed, because no drive turns the string", out)
@@ -460,7 +502,8 @@ class CheckTest(FolderTest):
     def test_a_string_that_stays_on_its_axis(self):
         """Axial-torsional pipes have no lateral acceleration, which is no assessment of it."""
         text = SCENE.replace('eccentricity = "0.5 mm"', 'kind = "axial-torsional"')
-        self.assertIn("lateral acceleration is not assessed", self.ask("speeds", self.write("axial.toml", text), "--check", "2"))
+        self.assertIn("lateral acceleration is not assessed", self.ask("speeds", self.write("axial.toml", text),
+                                                                       "--check", "2"))
         self.assertNotIn("lateral acceleration is not assessed", self.ask("speeds", self.scene, "--check", "2"))
 
     def test_own_rotation_is_among_the_speeds(self):
@@ -490,8 +533,11 @@ class FrictionTableTest(FolderTest):
     def test_torque_by_speed(self):
         """The torque of a string that slides is mu(v) times that of a coefficient of 1, by both laws."""
         def torque(speed, law, table):
-            text = SCENE.replace("mu_static = 0.30\nmu_dynamic = 0.30\n", f'friction_law = "{law}"\nsmoothing_speed = "0.01 mm/s"\n' + table)
-            scene = scenes.load(self.write("one.toml", text.replace("0.5 mm", "0 mm").replace('mass = "6 kg"\ndiameter = "94 mm"', 'mass = "6 kg"\ndiameter = "73 mm"')))
+            text = SCENE.replace("mu_static = 0.30\nmu_dynamic = 0.30\n",
+                                 f'friction_law = "{law}"\nsmoothing_speed = "0.01 mm/s"\n' + table)
+            scene = scenes.load(self.write("one.toml",
+                                           text.replace("0.5 mm", "0 mm").replace('mass = "6 kg"\ndiameter = "94 mm"',
+                                                                                  'mass = "6 kg"\ndiameter = "73 mm"')))
             with scene.new_sim() as sim:
                 sim.static(slip_rotation=speed / 0.0365)
                 return abs(sim.drive(scene.names["head"]).force)
@@ -512,14 +558,16 @@ class FrictionTableTest(FolderTest):
                 ('0.25]]', '0.0]]', "friction_table_mu"),
                 ('["70 mm/s", 0.5]', '["70 mm/s", -0.5]', "friction_table_mu[1]"),
                 (TABLE, 'friction_table = [["0 m/s", 0.5]]\n', "must have 2 to 8 pairs"),
-                ('[[time_function]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[time_function]]', "mu_static")):
+                ('[[time_function]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[time_function]]',
+                 "mu_static")):
             text = self.SCENE.replace(old, new, 1)
             self.assertNotEqual(text, self.SCENE, new)
             self.assertIn(wanted, self.ask("check", self.write("wrong.toml", text), status=2))
 
     def test_sections_scale_it(self):
         """A section with half the dynamic coefficient has half the static one too."""
-        text = self.SCENE.replace("[[time_function]]", '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[time_function]]', 1)
+        text = self.SCENE.replace("[[time_function]]",
+                                  '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[time_function]]', 1)
         point = scenes.load(self.write("section.toml", text)).model.hole(5.0)
         self.assertAlmostEqual(point.mu_static, 0.25)
         out = self.ask("torque-drag", self.folder / "section.toml", "-o", self.folder / "td")

@@ -1,4 +1,5 @@
-"""Tests of runs in time: many steps in a call give the bits, rows and samples of single ones; notes are kept; Ctrl-C ends a run soon."""
+"""Tests of runs in time: many steps in a call give the bits, rows and samples of single ones; notes are kept; Ctrl-C
+ends a run soon."""
 import os
 import signal
 import threading
@@ -186,13 +187,15 @@ class InterruptTest(unittest.TestCase):
 
 
 class EnergyTest(unittest.TestCase):
-    """A spinning body on a spring beside its axis that is far too stiff for the step loses energy by the numerical damping of spectral
-    radius 0; with radius 1 it does not, and not with a step of 1e-6 s."""
+    """A spinning body on a spring beside its axis that is far too stiff for the step loses energy by the numerical
+    damping of spectral radius 0; with radius 1 it does not, and not with a step of 1e-6 s."""
 
     def notes(self, step, count, radius):
         made = mbd.Model()
-        spinning = made.add_body(mass=10.0, inertia=(0.4, 0.4, 0.4, 0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0, 0.0, 0.0, 60.0))
-        made.add_spring(place_b=spinning, offset_b=(0.0, 0.3, 0.0), offset_a=(1.0, 0.3, 0.0), free_length=0.5, stiffness=1e6)
+        spinning = made.add_body(mass=10.0, inertia=(0.4, 0.4, 0.4, 0.0, 0.0, 0.0),
+                                 velocity=(0.0, 0.0, 0.0, 0.0, 0.0, 60.0))
+        made.add_spring(place_b=spinning, offset_b=(0.0, 0.3, 0.0), offset_a=(1.0, 0.3, 0.0), free_length=0.5,
+                        stiffness=1e6)
         made.compile()
         out = mock.Mock(summary={})
         with mbd.Sim(made, spectral_radius=radius, energy_ledger=1) as sim:

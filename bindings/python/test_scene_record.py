@@ -40,10 +40,12 @@ class Records(unittest.TestCase):
     """Written by Python and the command, read by the function of C."""
 
     def test_array_of_the_firmware_example(self):
-        """examples/firmware/rig.h, made by `drillmbd save`, is that of rig.toml beside it: to be made again where it is not."""
+        """examples/firmware/rig.h, made by `drillmbd save`, is that of rig.toml beside it: to be made again where it is
+        not."""
         folder = SCENES.parent / "firmware"
         text = (folder / "rig.h").read_text(encoding="utf-8").split("{")[1].split("}")[0]
-        loaded, model, options = scene.load(folder / "rig.toml"), read(bytes(int(one, 16) for one in text.replace(",", " ").split())), CompileOptions()
+        loaded, model, options = (scene.load(folder / "rig.toml"),
+                                  read(bytes(int(one, 16) for one in text.replace(",", " ").split())), CompileOptions())
         self.assertGreaterEqual(lib.dmb_model_compile(model, ctypes.byref(options)), 0)
         sim = SimOptions(bounded_work=1, max_iterations=4)
         self.assertEqual(hash_after(model, sim), hash_after(loaded.model._handle, sim))

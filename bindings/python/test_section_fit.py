@@ -1,5 +1,5 @@
-"""Friction coefficients by section of the hole from measurements at several depths: recovered from computed loads, with noise within the
-confidence, and the reasons where they are not determined."""
+"""Friction coefficients by section of the hole from measurements at several depths: recovered from computed loads, with
+noise within the confidence, and the reasons where they are not determined."""
 import json
 import random
 import unittest
@@ -17,7 +17,8 @@ fluid_density = "1250 kg/m3"
 diameter = "216 mm"
 mu_static = 0.2
 mu_dynamic = 0.2
-survey = [["0 m", "0 deg", "0 deg"], ["400 m", "0 deg", "0 deg"], ["1000 m", "60 deg", "30 deg"], ["2000 m", "60 deg", "30 deg"]]
+survey = [["0 m", "0 deg", "0 deg"], ["400 m", "0 deg", "0 deg"], ["1000 m", "60 deg", "30 deg"],
+          ["2000 m", "60 deg", "30 deg"]]
 [[hole.section]]
 depth = "4000 ft"
 name = "open hole"
@@ -38,7 +39,8 @@ def loads(depths):
     """[N, N m] Pick-up, slack-off and torque while rotating."""
     loaded = scene.loads(WELL)
     with loaded.new_sim() as sim:
-        rows = sim.torque_drag([enums.OPERATION_PICK_UP, enums.OPERATION_SLACK_OFF, enums.OPERATION_ROTATE], depths).rows
+        rows = sim.torque_drag([enums.OPERATION_PICK_UP, enums.OPERATION_SLACK_OFF, enums.OPERATION_ROTATE],
+                               depths).rows
     return [(row[0].hook_load, row[1].hook_load, row[2].torque) for row in rows]
 
 
@@ -49,8 +51,10 @@ class SectionFitTest(FolderTest):
                 for depth, values in zip(depths, loads(depths))]
         log = self.write("log.csv", "\n".join(["depth [m],pick_up [kN],slack_off [kN],torque [kN m]",
                                                *(",".join(map(repr, row)) for row in rows)]))
-        said = self.ask("torque-drag", self.write("well.toml", text), "--measured", log, "--output", self.folder / "out")
-        return said, json.loads((self.folder / "out" / "summary.json").read_text()).get("measured_by_section", {}).get("string", {})
+        said = self.ask("torque-drag", self.write("well.toml", text), "--measured", log, "--output",
+                        self.folder / "out")
+        return (said, json.loads((self.folder / "out" / "summary.json").read_text()).get("measured_by_section",
+                                                                                         {}).get("string", {}))
 
     def test_computed_loads_give_their_friction(self):
         said, found = self.by_section(DEPTHS)
@@ -88,14 +92,16 @@ class SectionFitTest(FolderTest):
         self.assertIn("2 measurements are not more than 2 coefficients", found["pick-up"]["reason"])
 
     def test_one_section_has_the_one_fit(self):
-        for text, depths in ((GUESS, [600.0, 800.0, 1000.0]), (GUESS[:GUESS.index("[[hole.section]]")] + GUESS[GUESS.index("[[string]]"):], DEPTHS)):
+        for text, depths in ((GUESS, [600.0, 800.0, 1000.0]),
+                             (GUESS[:GUESS.index("[[hole.section]]")] + GUESS[GUESS.index("[[string]]"):], DEPTHS)):
             with self.subTest(depths=depths):
                 self.assertEqual(self.by_section(depths, text=text)[1], {})
                 for path in (self.folder / "out").iterdir():
                     path.unlink()
 
     def test_values_in_lines_have_no_sections(self):
-        self.assertEqual(section_fit.sections_of('[hole]\nmu_dynamic = 0.3\n[[hole.section]]\ndepth = "1 m"\nshape = "line"\n'), [])
+        self.assertEqual(section_fit.sections_of('[hole]\nmu_dynamic = 0.3\n[[hole.section]]\ndepth = "1 m"\nshape = '
+                                                 '"line"\n'), [])
 
 
 if __name__ == "__main__":

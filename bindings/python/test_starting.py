@@ -1,4 +1,5 @@
-"""Tests of the commands that a scene begins with: new writes scenes that load, keys lists every key with unit and default."""
+"""Tests of the commands that a scene begins with: new writes scenes that load, keys lists every key with unit and
+default."""
 import contextlib
 import io
 import math
@@ -27,7 +28,9 @@ class StartingTest(unittest.TestCase):
     def test_missing_module(self):
         """The message names the interpreter that misses it: another one may have it."""
         from drillmbd._optional import need
-        with self.assertRaisesRegex(ImportError, f"nowhere.module is needed .* by {re.escape(sys.executable)}: pip install nowhere, .*"
+        with self.assertRaisesRegex(ImportError,
+                                    f"nowhere.module is needed .* by {re.escape(sys.executable)}: "
+                                    "pip install nowhere, .*"
                                     "install-packages command"):
             need("nowhere.module")
 
@@ -51,7 +54,8 @@ class StartingTest(unittest.TestCase):
             text = said("new", kind)[1]
             before, after = text.split("drillmbd probability FILE\n")
             self.assertNotIn("\n[variability]", text)
-            sample = SceneSample(before + "\n" + "".join(line.removeprefix("#").removeprefix(" ") + "\n" for line in after.splitlines()))
+            sample = SceneSample(before + "\n" + "".join(line.removeprefix("#").removeprefix(" ") + "\n"
+                                                         for line in after.splitlines()))
             self.assertEqual(sample.soft.why, "")
             found = sample(0, [0.0] * sample.dimension)
             self.assertEqual((found.status, len(found.margins)), (DONE, 5), found.message)
@@ -69,8 +73,10 @@ class StartingTest(unittest.TestCase):
             self.assertEqual(said("new", "drainage", "-o", str(target))[0], 0)
             status, _, message = said("probability", str(target))
             self.assertEqual(status, 2)
-            target.write_text(target.read_text(encoding="utf-8") + message[message.index("[variability]\n"):], encoding="utf-8")
-            status, out, _ = said("probability", str(target), "--question", "torque-drag", "--engine", "serial", "-o", str(pathlib.Path(folder, "out")))
+            target.write_text(target.read_text(encoding="utf-8") + message[message.index("[variability]\n"):],
+                              encoding="utf-8")
+            status, out, _ = said("probability", str(target), "--question", "torque-drag", "--engine", "serial", "-o",
+                                  str(pathlib.Path(folder, "out")))
             self.assertEqual(status, 0)
             self.assertIn("of 100;", out)
             self.assertNotIn("without a margin", out)
@@ -82,8 +88,10 @@ class StartingTest(unittest.TestCase):
             target = pathlib.Path(folder, "hole.toml")
             target.write_text(text, encoding="utf-8")
             out = said("torque-drag", str(target))[1]
-            self.assertIn("give it in [[string.pipes]] (yield_stress of [limits] is compared by report and probability)", out)
-            target.write_text(text.replace("[[string.pipes]]\n", '[[string.pipes]]\nyield_strength = "550 MPa"\n'), encoding="utf-8")
+            self.assertIn("give it in [[string.pipes]] (yield_stress of [limits] is compared by report and "
+                          "probability)", out)
+            target.write_text(text.replace("[[string.pipes]]\n", '[[string.pipes]]\nyield_strength = "550 MPa"\n'),
+                              encoding="utf-8")
             status, out, _ = said("torque-drag", str(target))
             self.assertEqual(status, 0)
             self.assertNotIn("stress: not assessed", out)
@@ -94,8 +102,10 @@ class StartingTest(unittest.TestCase):
             target = str(pathlib.Path(folder, "hole.toml"))
             self.assertEqual(said("new", "drainage", "-o", target)[0], 0)
             self.assertEqual(said("new", "drainage", "-o", target)[0], 3)  # never over a file that is there
-        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--dip", "95"), "within -90 deg .. 90 deg"), (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "times --rod-length"),
-                            (("--length", "-5m"), "times --rod-length"), (("--rod", "0mm"), "must lie between"), (("--dip", "-95deg"), "within -90 deg")):
+        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--dip", "95"), "within -90 deg .. 90 deg"),
+                            (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "times --rod-length"),
+                            (("--length", "-5m"), "times --rod-length"), (("--rod", "0mm"), "must lie between"),
+                            (("--dip", "-95deg"), "within -90 deg")):
             status, _, told = said("new", "drainage", *words)
             self.assertEqual(status, 2)
             self.assertIn(part, told)
@@ -107,16 +117,20 @@ class StartingTest(unittest.TestCase):
             survey.write_text("depth(m);dip(deg);azimuth(deg)\n0;5,0;92\n90;6,0;94,5\n180;3,2;96,4\n")
             self.assertEqual(said("new", "drainage", "--survey", str(survey), "--rods", "73", "-o", str(target))[0], 0)
             loaded = scene.load(target)
-            self.assertAlmostEqual(loaded.model.hole(180.0).position[2], 180.0 * math.sin(math.radians(5.05)), delta=0.5)  # it rises
+            # it rises
+            self.assertAlmostEqual(loaded.model.hole(180.0).position[2], 180.0 * math.sin(math.radians(5.05)),
+                                   delta=0.5)
             with loaded.new_sim() as sim:
                 self.assertEqual(sim.torque_drag([0]).rows[0][0].depth, 180.0)
-            self.assertIn("must be left out with --survey", said("new", "drainage", "--survey", str(survey), "--dip", "3")[2])
+            self.assertIn("must be left out with --survey", said("new", "drainage", "--survey", str(survey), "--dip",
+                                                                 "3")[2])
             survey.write_text("depth(m);dip(deg)\n0;5\n")
             self.assertIn("--survey", said("new", "drainage", "--survey", str(survey))[2])
             self.assertEqual(said("new", "drainage", "--survey", str(pathlib.Path(folder, "none.csv")))[0], 2)
 
     def test_rods_by_their_outer_diameter(self):
-        for words, bore in ((("--rods", "73"), "59 mm"), (("--rods", "89 mm"), "75 mm"), (("--rod", "63.5"), "49.5 mm")):
+        for words, bore in ((("--rods", "73"), "59 mm"), (("--rods", "89 mm"), "75 mm"),
+                            (("--rod", "63.5"), "49.5 mm")):
             text = said("new", "drainage", "--hole", "110", *words)[1]
             self.assertIn(f'inner_diameter = "{bore}"        # the wall is an assumption', text)
         self.assertNotIn("the wall is an assumption", said("new", "drainage", "--rod", "73", "--bore", "60")[1])

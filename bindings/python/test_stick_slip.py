@@ -1,6 +1,6 @@
-"""The stochastic map of stick-slip over rotary speed and bit load: a bit on a torsional spring rubs on the wall with a random static
-friction. Held against the same bit with two levels of friction, whose slip is a damped swing and known exactly: where the next stick
-begins, the critical speed and, with it, the probability in closed form."""
+"""The stochastic map of stick-slip over rotary speed and bit load: a bit on a torsional spring rubs on the wall with a
+random static friction. Held against the same bit with two levels of friction, whose slip is a damped swing and known
+exactly: where the next stick begins, the critical speed and, with it, the probability in closed form."""
 import functools
 import math
 import unittest
@@ -70,34 +70,38 @@ DAMPING, ROUND = 0.05, 0.1  # [-], [m] radius of the bit
 
 @functools.lru_cache(maxsize=None)
 def critical(d=DAMPING):
-    """Speed [rad/s] below which each slip ends in a stick, per N m between static and sliding friction, k = J = 1. With y the twist less
-    that of sliding, y'' + 2 d y' + y = 0, a slip begins with y = 1 - 2 d w, y' = w, and ends where y' = w again."""
+    """Speed [rad/s] below which each slip ends in a stick, per N m between static and sliding friction, k = J = 1. With
+    y the twist less that of sliding, y'' + 2 d y' + y = 0, a slip begins with y = 1 - 2 d w, y' = w, and ends where y'
+    = w again."""
     root = math.sqrt(1.0 - d * d)
     times = np.linspace(0.0, 2.0 * math.pi, 4001)[1:]
 
     def highest(w):
         y0 = 1.0 - 2.0 * d * w
         b = (w + d * y0) / root
-        swing = np.exp(-d * times) * ((b * root - d * y0) * np.cos(root * times) - (y0 * root + d * b) * np.sin(root * times))
+        swing = np.exp(-d * times) * ((b * root - d * y0) * np.cos(root * times)
+                                      - (y0 * root + d * b) * np.sin(root * times))
         return swing[100:].max() / w - 1.0
     return brentq(highest, 0.05, 50.0)
 
 
 def stick(w, d=DAMPING):
-    """[s] that a stick lasts at the speed w [rad/s] per N m between static and sliding friction: from where the slip ends, y' = w, to where
-    the torque y + 2 d w is that of static friction, while the twist grows by w."""
+    """[s] that a stick lasts at the speed w [rad/s] per N m between static and sliding friction: from where the slip
+    ends, y' = w, to where the torque y + 2 d w is that of static friction, while the twist grows by w."""
     root = math.sqrt(1.0 - d * d)
     y0 = 1.0 - 2.0 * d * w
     b = (w + d * y0) / root
 
     def turning(t):
-        return math.exp(-d * t) * ((b * root - d * y0) * math.cos(root * t) - (y0 * root + d * b) * math.sin(root * t)) - w
+        return math.exp(-d * t) * ((b * root - d * y0) * math.cos(root * t)
+                                   - (y0 * root + d * b) * math.sin(root * t)) - w
     end = brentq(turning, 0.5 * math.pi, 1.5 * math.pi)
     return (y0 - math.exp(-d * end) * (y0 * math.cos(root * end) + b * math.sin(root * end))) / w
 
 
 def probability(speed, load, stretch=1.0):
-    """Of stick-slip: the share of static frictions above that whose critical speed is `speed`; stretch: of the critical speed."""
+    """Of stick-slip: the share of static frictions above that whose critical speed is `speed`; stretch: of the critical
+    speed."""
     needed = 0.30 + speed / (critical() * stretch * load * ROUND)
     return min(max((0.41 - needed) / 0.10, 0.0), 1.0)
 
@@ -129,12 +133,14 @@ class StickSlipTest(unittest.TestCase):
                 self.assertTrue(estimate.low <= probability(speed, load) <= estimate.high, (speed, load, estimate))
 
     def test_library(self):
-        """The library's friction falls off over 4 mm/s and not at once, so that it sticks up to a somewhat higher speed: counts lie between
-        those of the exact critical speed and of one 30 % higher; more with the load, fewer with the speed."""
+        """The library's friction falls off over 4 mm/s and not at once, so that it sticks up to a somewhat higher
+        speed: counts lie between those of the exact critical speed and of one 30 % higher; more with the load, fewer
+        with the speed."""
         count, shares = 10, {}
         for speed in (1.0, 3.0, 5.0):
             for load in (250, 500):
-                sample = SceneSample(SCENE, changes={"time_function[0].segment.h1": f"{speed} rad/s", "bit.mass": f"{load / 10.0} kg"})
+                sample = SceneSample(SCENE, changes={"time_function[0].segment.h1": f"{speed} rad/s",
+                                                     "bit.mass": f"{load / 10.0} kg"})
                 points = Points("latin-hypercube", 5, 1, count, 1)
                 found = Study(sample, engines.processes(2)).run(range(count), points.z)
                 self.assertEqual([one.message for one in found if one.message], [])
@@ -153,13 +159,17 @@ class StickSlipTest(unittest.TestCase):
         self.assertGreater(shares[1.0, 500], shares[5.0, 250])
 
     def test_bit_stuck(self):
-        """The longest stick of the library against that of the exact slip: friction that falls off fast and rises faster from rest.
-        Where it falls off over a finite speed, a bit that is about to break away creeps longer: by 3.9, 2.2 and 1.6 % here."""
+        """The longest stick of the library against that of the exact slip: friction that falls off fast and rises
+        faster from rest.
+        Where it falls off over a finite speed, a bit that is about to break away creeps longer: by 3.9, 2.2 and 1.6 %
+        here."""
         known = stick(1.0 / ((0.36 - 0.30) * 500.0 * ROUND))
-        for stribeck, smoothing, step, bound in ((4.0, 0.005, 2.0, 0.04), (1.0, 0.001, 0.5, 0.025), (0.25, 0.00025, 0.25, 0.018)):
+        for stribeck, smoothing, step, bound in ((4.0, 0.005, 2.0, 0.04), (1.0, 0.001, 0.5, 0.025),
+                                                 (0.25, 0.00025, 0.25, 0.018)):
             text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
             sample = SceneSample(text, changes={
-                "time_function[0].segment.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "results.interval": "10 ms",
+                "time_function[0].segment.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s",
+                "results.interval": "10 ms",
                 "hole.smoothing_speed": f"{smoothing} mm/s", "run.step": f"{step} ms"})
             found = sample(0, np.zeros(1))
             self.assertEqual(found.message, "")

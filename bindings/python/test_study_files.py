@@ -1,4 +1,5 @@
-"""Tests that a study loses nothing and waits for nothing: damaged files, lost locks, full disks, workers and ranks that fail."""
+"""Tests that a study loses nothing and waits for nothing: damaged files, lost locks, full disks, workers and ranks that
+fail."""
 import contextlib
 import importlib.util
 import math
@@ -62,7 +63,8 @@ class DamageTest(FolderTest):
         return bytes(data)
 
     def test_any_damage(self):
-        """A file that is damaged anywhere is refused at once with what can be recovered, or all of its rows that count are right."""
+        """A file that is damaged anywhere is refused at once with what can be recovered, or all of its rows that count
+        are right."""
         refused = 0
         for how in ("bit", "cut", "zeros", "nonsense"):
             for seed in range(8):
@@ -80,9 +82,11 @@ class DamageTest(FolderTest):
                     _, rows = self.study(range(0), salvage=True)
                     self.assertEqual((self.folder / "s.h5.damaged").read_bytes(), data)
                     self.assertEqual(len(rows), len(error.rows))
-                self.assertEqual([row["margin"].tolist() for row in rows], [self.known[int(row["number"])] for row in rows])
+                self.assertEqual([row["margin"].tolist() for row in rows],
+                                 [self.known[int(row["number"])] for row in rows])
                 evaluated, rows = self.study(range(40))
-                self.assertEqual((evaluated + len(rows) >= 40, rows["margin"].tolist()), (True, list(self.known.values())))
+                self.assertEqual((evaluated + len(rows) >= 40, rows["margin"].tolist()),
+                                 (True, list(self.known.values())))
         self.assertGreater(refused, 8)
 
     def test_a_row_in_the_middle(self):
@@ -93,7 +97,8 @@ class DamageTest(FolderTest):
         self.assertEqual(self.study(range(40), salvage=True)[0], 1)
 
     def test_a_row_that_was_cut_off(self):
-        """A process that is killed while it writes leaves a last row without its check sum: it is computed again, and nothing is said."""
+        """A process that is killed while it writes leaves a last row without its check sum: it is computed again, and
+        nothing is said."""
         size = read_rows(self.file)[0].dtype.itemsize
         last = self.data.rindex(np.float64(self.known[39][0]).tobytes())
         end = last + size - 44  # mark, place, number, status and seconds stand before the margin
@@ -121,7 +126,8 @@ class LockTest(FolderTest):
 
     def other(self):
         """Another process that writes one row."""
-        return subprocess.run([sys.executable, "-W", "ignore", "-c", self.OTHER, self.folder / "s.h5", self.folder], env=ENVIRONMENT,
+        return subprocess.run([sys.executable, "-W", "ignore", "-c", self.OTHER, self.folder / "s.h5", self.folder],
+                              env=ENVIRONMENT,
                               capture_output=True, text=True, timeout=100)
 
     def test_a_refused_opening_keeps_the_lock(self):
@@ -139,7 +145,8 @@ class LockTest(FolderTest):
         self.assertEqual(read_rows(self.folder / "s.h5")[0]["number"].tolist(), [0, 1, 2, 3, 4])
 
     def test_without_locks(self):
-        """Where locks do nothing, as on some network drives, the writer whose file was replaced stops; no row of either is lost."""
+        """Where locks do nothing, as on some network drives, the writer whose file was replaced stops; no row of either
+        is lost."""
         path = self.folder / "s.h5"
         file = StudyFile(path, Toy(self.folder), {})
         study = Study(Toy(self.folder), engines.serial, file)
@@ -172,9 +179,11 @@ class FullDiskTest(FolderTest):
         """A limit of the size of files stands for a full disk: before the first row, and after some."""
         for limit, kept in ((10_000, False), (300_000, True)):
             out = self.folder / f"out{limit}"
-            code = (f"import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit})); "
+            code = ("import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
+                    f"resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit})); "
                     "from drillmbd.command import program; program()")
-            words = [sys.executable, "-W", "ignore", "-c", code, "probability", self.scene, "-o", out, "--samples", "400", "--workers", "2"]
+            words = [sys.executable, "-W", "ignore", "-c", code, "probability", self.scene, "-o", out, "--samples",
+                     "400", "--workers", "2"]
             done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=300)
             self.assertEqual(done.returncode, 3, done.stderr[-800:] + done.stdout[-200:])
             self.assertIn("File too large", done.stderr)
@@ -202,13 +211,15 @@ class WorkerTest(FolderTest):
     def test_dask_of_the_installed_command(self):
         """Workers that are not forked import the file of the command."""
         command = self.write("drillmbd", (ROOT / "bindings/python/drillmbd-command").read_text(encoding="utf-8"))
-        words = [sys.executable, "-W", "ignore", command, "probability", self.scene, "-o", self.folder / "out", "--samples", "4", "--engine", "dask",
+        words = [sys.executable, "-W", "ignore", command, "probability", self.scene, "-o", self.folder / "out",
+                 "--samples", "4", "--engine", "dask",
                  "--workers", "2"]
         done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr[-800:])
         self.assertIn("4 samples computed", done.stdout)
 
-    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None,
+                     "not there: mpirun, mpi4py")
     def test_exception_in_a_rank(self):
         """SystemError passes through a sample: no limit state of a user's may raise it."""
         code = """import sys
@@ -222,7 +233,8 @@ sample.SceneSample.__call__ = call
 from drillmbd.command import program
 program()
 """
-        words = (*MPIRUN, "3", sys.executable, "-W", "ignore", "-c", code, "probability", self.scene, "-o", self.folder / "out", "--samples", "8",
+        words = (*MPIRUN, "3", sys.executable, "-W", "ignore", "-c", code, "probability", self.scene, "-o",
+                 self.folder / "out", "--samples", "8",
                  "--engine", "mpi")
         done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=120)
         self.assertNotEqual(done.returncode, 0)
@@ -236,7 +248,8 @@ class InputTest(FolderTest):
         os.mkfifo(self.folder / "pipe.toml")
         for name in (self.folder / "pipe.toml", "/dev/null", "/dev/zero"):
             started = time.monotonic()
-            self.assertIn(f"{name}:1: the file: is a device or a named pipe, must be a regular file", self.ask("check", name, status=2))
+            self.assertIn(f"{name}:1: the file: is a device or a named pipe, must be a regular file",
+                          self.ask("check", name, status=2))
             self.assertLess(time.monotonic() - started, 5.0)
 
     def test_failure_after_the_run(self):
@@ -245,7 +258,8 @@ class InputTest(FolderTest):
         self.assertIn(f"rig.toml:{line}: failure[0].from = \"31 ms\": must be <= 0.03 s, the end of the run",
                       self.ask("check", self.write("rig.toml", late), status=2))
         self.ask("check", self.write("rig.toml", late.replace("31 ms", "30 ms")))
-        static = SCENE.replace("seed = 7", 'seed = 7\nquestion = "static"').replace('limit = "111 N m"', 'limit = "111 N m"\nfrom = "1 ms"')
+        static = SCENE.replace("seed = 7", 'seed = 7\nquestion = "static"').replace('limit = "111 N m"',
+                                                                                    'limit = "111 N m"\nfrom = "1 ms"')
         with self.assertRaisesRegex(scene.SceneError, "must be <= 0 s, the time of a static state"):
             scene.loads(static)
         with self.assertRaisesRegex(scene.SceneError, "must be >= 0 s, the beginning of the run"):
@@ -257,7 +271,8 @@ class InputTest(FolderTest):
         for cell in ("torque", "-5 mm", "+1.5e-3 kN m", "-3", 7, -1.5, "", None):
             self.assertEqual(no_formula(cell), cell)
         named = SCENE.replace('name = "friction"', 'name = "=HYPERLINK(1)"')
-        self.ask("probability", self.write("rig.toml", named), "-o", self.folder / "out", "--samples", 2, "--engine", "serial")
+        self.ask("probability", self.write("rig.toml", named), "-o", self.folder / "out", "--samples", 2, "--engine",
+                 "serial")
         head = (self.folder / "out" / "samples.csv").read_text(encoding="utf-8").splitlines()[0]
         self.assertIn(",'=HYPERLINK(1),", head)
 

@@ -1,5 +1,5 @@
-"""Tests of units of the output: the same numbers in SI, field and mine units by every command, in texts, tables, pictures and the page of
-the report; no unit of another system beside them; refusals."""
+"""Tests of units of the output: the same numbers in SI, field and mine units by every command, in texts, tables,
+pictures and the page of the report; no unit of another system beside them; refusals."""
 import csv
 import json
 import math
@@ -87,8 +87,10 @@ place = {part = "main", pipe = 3}
 quantity = "vibration-z"
 limit = "0.01 um"
 """
-COMMANDS = {"check": (), "static": (), "run": ("--verify",), "modes": (), "response": (), "speeds": (), "buckle": (), "report": (),
-            "torque-drag": ("--depths", "4", "--frictions", "0.2,0.3", "--block-weight", "10 kN", "--measured", "log.csv"),
+COMMANDS = {"check": (), "static": (), "run": ("--verify",), "modes": (), "response": (), "speeds": (), "buckle": (),
+            "report": (),
+            "torque-drag": ("--depths", "4", "--frictions", "0.2,0.3", "--block-weight", "10 kN", "--measured",
+                            "log.csv"),
             "stuck": ("--overpull", "20 kN", "--stretch", "0.05 mm")}
 LOG = "depth [m],pick_up [kN],rotate [kN],torque [kN m]\n4,10.5,10.2,0.005\n9,11,10.4,0.01\n"
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -105,14 +107,20 @@ def ratio(unit, other):
 class SystemTest(unittest.TestCase):
     def test_values(self):
         lbf, inch = 4.4482216152605, 0.0254
-        for si, name, unit, value in (("m", "field", "ft", 1 / 0.3048), ("mm", "field", "in", 1 / 25.4), ("N", "field", "lbf", 1 / lbf),
+        for si, name, unit, value in (("m", "field", "ft", 1 / 0.3048), ("mm", "field", "in", 1 / 25.4),
+                                      ("N", "field", "lbf", 1 / lbf),
                                       ("kN", "field", "klbf", 1 / lbf), ("N m", "field", "ft-lbf", 1 / (lbf * 0.3048)),
-                                      ("Pa", "field", "psi", inch ** 2 / lbf), ("MPa", "field", "psi", 1e6 * inch ** 2 / lbf),
-                                      ("kg/m", "field", "lb/ft", 0.3048 / 0.45359237), ("kg/m3", "field", "ppg", 0.003785411784 / 0.45359237),
+                                      ("Pa", "field", "psi", inch ** 2 / lbf),
+                                      ("MPa", "field", "psi", 1e6 * inch ** 2 / lbf),
+                                      ("kg/m", "field", "lb/ft", 0.3048 / 0.45359237),
+                                      ("kg/m3", "field", "ppg", 0.003785411784 / 0.45359237),
                                       ("rad/s", "field", "rpm", 30 / math.pi), ("mm/s", "field", "ft/h", 3600 / 304.8),
-                                      ("rad/m", "field", "deg/100 ft", 30.48 * 180 / math.pi), ("rad/m", "mine", "deg/30 m", 30 * 180 / math.pi),
-                                      ("N", "mine", "kN", 1e-3), ("Pa", "mine", "MPa", 1e-6), ("mm", "mine", "mm", 1.0), ("N m", "mine", "N m", 1.0),
-                                      ("m3/s", "field", "gpm", 60 / 0.003785411784), ("m3/s", "mine", "l/min", 60000.0)):
+                                      ("rad/m", "field", "deg/100 ft", 30.48 * 180 / math.pi),
+                                      ("rad/m", "mine", "deg/30 m", 30 * 180 / math.pi),
+                                      ("N", "mine", "kN", 1e-3), ("Pa", "mine", "MPa", 1e-6), ("mm", "mine", "mm", 1.0),
+                                      ("N m", "mine", "N m", 1.0),
+                                      ("m3/s", "field", "gpm", 60 / 0.003785411784),
+                                      ("m3/s", "mine", "l/min", 60000.0)):
             self.assertEqual(Units(name).unit(si), unit)
             self.assertAlmostEqual(Units(name).factor(si) / value, 1.0, 12, (si, name))
 
@@ -123,7 +131,8 @@ class SystemTest(unittest.TestCase):
 
     def test_all_quantities_of_the_library(self):
         """Units of outputs and profiles have an equivalent, but those that depend on the scene."""
-        found = {unit_of(one) for one in QUANTITIES} | {part for one in output_numbers() for part in output_unit(one).split(" or ")}
+        found = {unit_of(one) for one in QUANTITIES} | {part for one in output_numbers()
+                                                        for part in output_unit(one).split(" or ")}
         self.assertEqual({one for one in found if one not in TABLE and not one.startswith("unit of the ")}, set())
 
     def test_si_changes_nothing(self):
@@ -136,9 +145,12 @@ class SystemTest(unittest.TestCase):
 
     def test_sentences(self):
         field = Units("field")
-        for text, wanted in (("the string begins at 30.48 m.", "the string begins at 100 ft."), ("3.048 .. 6.096 m", "10 .. 20 ft"),
-                             ("-4448.22 N, 1.5 N m/rad", "-1000 lbf, 1.5 N m/rad"), ("largest dogleg 3 deg/30 m", "largest dogleg 3.048 deg/100 ft"),
-                             ("pipe 3 of main, 100 rpm, 8 elements", "pipe 3 of main, 100 rpm, 8 elements"), ("73 x 6.35 mm", "2.874 x 0.25 in"),
+        for text, wanted in (("the string begins at 30.48 m.", "the string begins at 100 ft."),
+                             ("3.048 .. 6.096 m", "10 .. 20 ft"),
+                             ("-4448.22 N, 1.5 N m/rad", "-1000 lbf, 1.5 N m/rad"),
+                             ("largest dogleg 3 deg/30 m", "largest dogleg 3.048 deg/100 ft"),
+                             ("pipe 3 of main, 100 rpm, 8 elements", "pipe 3 of main, 100 rpm, 8 elements"),
+                             ("73 x 6.35 mm", "2.874 x 0.25 in"),
                              ('load = "9 t": of 3.048 m', 'load = "9 t": of 10 ft')):  # as it is written
             self.assertEqual(field.sentence(text), wanted)
 
@@ -162,7 +174,8 @@ class OutputTest(FolderTest):
         self.addCleanup(setattr, results.CommandOutput, "picture", plain)
 
     def _seen(self, name, figure):
-        self.figures.append((name, [(one.get_xlabel(), one.get_ylabel(), [line.get_xydata() for line in one.get_lines()]) for one in figure.axes]))
+        self.figures.append((name, [(one.get_xlabel(), one.get_ylabel(),
+                                     [line.get_xydata() for line in one.get_lines()]) for one in figure.axes]))
         return figure
 
     def answer(self, command, system, *more):
@@ -177,7 +190,8 @@ class OutputTest(FolderTest):
         self.assertEqual(summary["units"], "si")
         for system in ("field", "mine"):
             other, place, found, drawn = self.answer(command, system, "--units", system)
-            self.assertEqual((found["units"], found["units_of_numbers"], found["files"]), (system, "si", summary["files"]))
+            self.assertEqual((found["units"], found["units_of_numbers"], found["files"]),
+                             (system, "si", summary["files"]))
             self._same_numbers_in_summary(summary, found)
             self.compare_text(out, other, system)
             for name in (one for one in found["files"] if one.endswith(".csv") and command != "response"):
@@ -190,7 +204,8 @@ class OutputTest(FolderTest):
             self.assertEqual(one[key], other[key], key)
 
     def compare_text(self, out, other, system):
-        lines = [[line for line in text.splitlines() if "real time" not in line and "files in" not in line] for text in (out, other)]
+        lines = [[line for line in text.splitlines() if "real time" not in line and "files in" not in line]
+                 for text in (out, other)]
         self.assertEqual(len(lines[0]), len(lines[1]))
         self.assertIsNone((ONLY_SI if system == "field" else ONLY_FIELD).search("\n".join(lines[1])), other)
         for si, shown in zip(*lines):
@@ -202,15 +217,19 @@ class OutputTest(FolderTest):
 
     @staticmethod
     def _numbers(line):
-        """All numbers of a line with the unit behind them; of a range, that of its end; of a output, that before the colon."""
-        line = re.sub(r"\b(30 m|100 ft)\b(?=,| between|$)", lambda one: one[0].replace(" ", "_"), line) if "deg/" in line else line
-        names = sorted({one for si, systems in TABLE.items() for one in (si, *systems[0], *systems[1])} - {"", "-", "%"}, key=len, reverse=True)
+        """All numbers of a line with the unit behind them; of a range, that of its end; of a output, that before the
+        colon."""
+        line = re.sub(r"\b(30 m|100 ft)\b(?=,| between|$)", lambda one: one[0].replace(" ", "_"),
+                      line) if "deg/" in line else line
+        names = sorted({one for si, systems in TABLE.items() for one in (si, *systems[0], *systems[1])}
+                       - {"", "-", "%"}, key=len, reverse=True)
         units = "|".join(re.escape(one).replace(r"\ ", "[ _]") for one in names)
         head = re.match(r"\s*[\w ]+ \[([^\]]*)\]:", line)
         found = []
         for one in NUMBER.finditer(line):
             unit = re.match(rf"(?:(?: \.\.| x)\s*[-+\d.e]+)? ({units})(?![\w/^-])(?! m\b)", line[one.end():])
-            own = unit[1].replace("_", " ") if unit else head[1] if head and not line[one.end():].startswith(" %") else "-"
+            own = unit[1].replace("_",
+                                  " ") if unit else head[1] if head and not line[one.end():].startswith(" %") else "-"
             found.append((float(one[0]), own))
         return found
 
@@ -223,7 +242,8 @@ class OutputTest(FolderTest):
                 units[0] = "N m" if heads[0] == "torque" else "rad/s"
             pairs = list(zip(*(one.split(" or ") for one in units), strict=True))
             for row, shown in zip(rows[0][1:], rows[1][1:], strict=True):
-                factor, a, b = ratio(*pairs["torque while rotating" in row and len(pairs) - 1]), row[number], shown[number]
+                factor, a, b = ratio(*pairs["torque while rotating" in row
+                                            and len(pairs) - 1]), row[number], shown[number]
                 if not NUMBER.fullmatch(a):
                     self.assertEqual(a, b)
                 else:
@@ -234,7 +254,8 @@ class OutputTest(FolderTest):
         output = {"torque": "N m"}  # of the scene: without a unit in SI
         for (name, panels), (_, others) in zip(figures, drawn):
             for (x, y, lines), (other_x, other_y, other_lines) in zip(panels, others):
-                labels = ((x or panels[-1][0], other_x or others[-1][0]), (y or panels[0][1], other_y or others[0][1]))  # shared axes have one label
+                # shared axes have one label
+                labels = ((x or panels[-1][0], other_x or others[-1][0]), (y or panels[0][1], other_y or others[0][1]))
                 for axis, (a, b) in enumerate(labels):
                     factor = ratio((HEAD.findall(a) or [output.get(a, "-")])[0], (HEAD.findall(b) or ["-"])[0])
                     for line, shown in zip(lines, other_lines, strict=True):
@@ -243,7 +264,8 @@ class OutputTest(FolderTest):
                             continue  # a reference line
                         size = max((abs(one) for one in values if math.isfinite(one)), default=0.0) * factor
                         for one, other in zip(values, seen, strict=True):
-                            self.assertTrue(not math.isfinite(one) or abs(other - one * factor) <= 1e-9 * size, (name, a, b, one, other))
+                            self.assertTrue(not math.isfinite(one) or abs(other - one * factor) <= 1e-9 * size,
+                                            (name, a, b, one, other))
 
     def test_check(self):
         self.compare("check")
@@ -271,7 +293,8 @@ class OutputTest(FolderTest):
         self.assertIn("buckling_thrust_main.csv", self.compare("buckle"))
 
     def test_torque_drag(self):
-        self.assertLessEqual({"rig_limits_main.csv", "broomstick_main.csv", "measured_main.csv"}, set(self.compare("torque-drag")))
+        self.assertLessEqual({"rig_limits_main.csv", "broomstick_main.csv", "measured_main.csv"},
+                             set(self.compare("torque-drag")))
 
     def test_stuck(self):
         self.compare("stuck")
@@ -285,16 +308,19 @@ class OutputTest(FolderTest):
             pages[system] = json.loads(re.search(r'id="figures">(.*?)</script>', page)[1])
             words = re.sub(r"<script.*?</script>|<style.*?</style>|<[^>]*>", "\n", page, flags=re.DOTALL)
             self.assertNotRegex(words, {"si": ONLY_FIELD, "field": ONLY_SI, "mine": ONLY_FIELD}[system])
-            self.assertIn({"si": "SI", "field": "field units (ft, lbf, psi)", "mine": "mine units (m, kN, MPa)"}[system], words)
+            self.assertIn({"si": "SI", "field": "field units (ft, lbf, psi)",
+                           "mine": "mine units (m, kN, MPa)"}[system], words)
         for system in ("field", "mine"):
             for one, other in zip(pages["si"], pages[system], strict=True):
                 for axis in "xy":
-                    titles = [layout.get(f"{axis}axis", {}).get("title", {}).get("text", "") for layout in (one["layout"], other["layout"])]
+                    titles = [layout.get(f"{axis}axis", {}).get("title", {}).get("text", "")
+                              for layout in (one["layout"], other["layout"])]
                     units = [(HEAD.findall(title) or ["-"])[0] for title in titles]
                     if titles[0] in ("torque", "speed [rad/s]"):
                         units[0] = "N m" if titles[0] == "torque" else "rad/s"
                     if "scene" in one["layout"]:
-                        units = [HEAD.findall(layout["scene"][f"{axis}axis"]["title"]["text"])[0] for layout in (one["layout"], other["layout"])]
+                        units = [HEAD.findall(layout["scene"][f"{axis}axis"]["title"]["text"])[0]
+                                 for layout in (one["layout"], other["layout"])]
                     for line, drawn in zip(one["data"], other["data"], strict=True):
                         if line["type"] in ("scatter", "scatter3d", "bar"):
                             size = max(map(abs, line[axis]), default=0.0) * ratio(*units)
@@ -312,17 +338,21 @@ class OutputTest(FolderTest):
         error = self.ask("static", self.scene, "--units", "metric", status=2)
         self.assertRegex(error, "invalid choice: 'metric' .*si.*field.*mine")
         self.scene = self.write("rig.toml", SCENE + '[results]\nunits = "fields"\n')
-        self.assertIn('results.units = "fields": must be one of the words si, field, mine', self.ask("static", self.scene, status=2))
+        self.assertIn('results.units = "fields": must be one of the words si, field, mine',
+                      self.ask("static", self.scene, status=2))
         self.assertEqual(unit_systems.NAMES, ("si", "field", "mine"))
 
     def test_refused_depths_have_the_units_of_the_output(self):
-        for system, text in (("field", "--depths: 100 ft must be above 0 ft, where the string begins, and at most 29.5276 ft"),
+        for system, text in (("field",
+                              "--depths: 100 ft must be above 0 ft, where the string begins, and at most 29.5276 ft"),
                              ("si", "--depths: 30.48 m must be above 0 m, where the string begins, and at most 9 m")):
-            self.assertIn(text, self.ask("torque-drag", self.scene, "--depths", "100 ft", "--units", system, "-q", status=2))
+            self.assertIn(text, self.ask("torque-drag", self.scene, "--depths", "100 ft", "--units", system, "-q",
+                                         status=2))
 
     def test_sweep_passes_units(self):
         out = self.folder / "sweep"
-        self.ask("sweep", self.scene, "static", "--vary", "hole.mu_dynamic=0.2", "--output", out, "--", "--units", "field")
+        self.ask("sweep", self.scene, "static", "--vary", "hole.mu_dynamic=0.2", "--output", out, "--", "--units",
+                 "field")
         with open(out / "00001" / "static_main.csv", encoding="utf-8") as file:
             self.assertIn("along [ft]", file.readline())
 

@@ -1,5 +1,6 @@
-"""Tests of the validation page: its cheap cases give the errors that are stored, each within what is accepted or shown as missed;
-the page names source, fit and verdict of each; rows of the reference study are read from what its program prints."""
+"""Tests of the validation page: its cheap cases give the errors that are stored, each within what is accepted or shown
+as missed; the page names source, fit and verdict of each; rows of the reference study are read from what its program
+prints."""
 import csv
 import pathlib
 import sys
@@ -26,7 +27,8 @@ def stored():
     found = {}
     with open(VALIDATION / "stored.csv", encoding="utf-8", newline="") as text:
         for row in csv.DictReader(text):
-            found.setdefault(row["case"], []).append((row["quantity"], row["settings"], float(row["error"]), row["verdict"]))
+            found.setdefault(row["case"], []).append((row["quantity"], row["settings"], float(row["error"]),
+                                                      row["verdict"]))
     return found
 
 
@@ -64,9 +66,11 @@ class CaseTest(unittest.TestCase):
 class PageTest(unittest.TestCase):
     def test_page_names_source_fit_and_verdict(self):
         rows = [Row("load & pull", "kN", 1.0, 1.2, "coarse", 0.1, fitted="friction 0.3")]
-        case = Case("one", "A <well>", "measured", "Somebody 1999", "10.1000/1", "survey", "friction factor", rows, "looked at")
+        case = Case("one", "A <well>", "measured", "Somebody 1999", "10.1000/1", "survey", "friction factor", rows,
+                    "looked at")
         text = page.page([case], "")
-        for part in ("A &lt;well&gt;", "load &amp; pull", "https://doi.org/10.1000/1", "friction 0.3", "looked at", "+20 %",
+        for part in ("A &lt;well&gt;", "load &amp; pull", "https://doi.org/10.1000/1", "friction 0.3", "looked at",
+                     "+20 %",
                      '<tr class="over">', "0 of 1 cases"):
             self.assertIn(part, text)
         self.assertNotIn("src=\"http", text)
@@ -102,8 +106,10 @@ class StudyTest(unittest.TestCase):
         table, _, _ = study.read(text.rstrip("\n"))
         count = {verdict: sum(row.verdict == verdict for row in table) for verdict in study.VERDICTS}
         readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-        self.assertIn(f"of {len(table)} of its sentences {count['CONFIRMED']} are confirmed, {count['CONFIRMED IF']} under a stated "
-                      f"condition, {count['NOT CONFIRMED']} are not, and {count['CANNOT BE DECIDED']} cannot be decided", readme)
+        self.assertIn(f"of {len(table)} of its sentences {count['CONFIRMED']} are confirmed, {count['CONFIRMED IF']} "
+                      "under a stated "
+                      f"condition, {count['NOT CONFIRMED']} are not, and {count['CANNOT BE DECIDED']} cannot be "
+                      "decided", readme)
 
 
 if __name__ == "__main__":

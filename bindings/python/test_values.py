@@ -23,7 +23,8 @@ def string_in_hole():
 
 class ShortPaths(unittest.TestCase):
     def test_constant_drive_and_ramp(self):
-        """A drive of a value is one of a constant time function; a ramp is one segment; a file says both by a time function."""
+        """A drive of a value is one of a constant time function; a ramp is one segment; a file says both by a time
+        function."""
         states = []
         for constant in (True, False):
             model = mbd.Model()
@@ -84,7 +85,8 @@ class FieldTest(Refusals):
         self.assertEqual((error.field, error.bound), ("kind", "be PIPE_..."))
         error = self.refused(mbd.DriveDef, component=mbd.DRIVE_LOAD)
         self.assertEqual((error.field, error.bound), ("component", "be X .. RZ"))
-        self.assertEqual(mbd.StringDef(start_free=mbd.FREE_ALL & ~mbd.FREE_X).start_free, mbd.FREE_YZ | mbd.FREE_SPHERICAL)
+        self.assertEqual(mbd.StringDef(start_free=mbd.FREE_ALL & ~mbd.FREE_X).start_free,
+                         mbd.FREE_YZ | mbd.FREE_SPHERICAL)
         self.assertEqual(mbd.ResponseOptions(axes=mbd.RESPONSE_AXES_AT_REST).axes, mbd.RESPONSE_AXES_AT_REST)
 
     def test_every_default_fits_its_field(self):
@@ -102,7 +104,8 @@ class FieldTest(Refusals):
             numpy = mbd.numpy
             self.assertEqual(mbd.EnvironmentDef(gravity=numpy.array([1, 2, 3], dtype=numpy.float32)).gravity[2], 3.0)
             self.assertEqual(mbd.PipeDef(length=numpy.float32(2.0), elements=numpy.int64(3)).elements, 3)
-            for wrong in (numpy.zeros(2), numpy.zeros((3, 3)), numpy.zeros(3, dtype=complex), numpy.array(["1", "2", "3"])):
+            for wrong in (numpy.zeros(2), numpy.zeros((3, 3)), numpy.zeros(3, dtype=complex),
+                          numpy.array(["1", "2", "3"])):
                 self.assertEqual(self.refused(mbd.EnvironmentDef, gravity=wrong).part, "EnvironmentDef")
 
     def test_texts(self):
@@ -308,7 +311,8 @@ class ClosedTest(Refusals):
         recorder.take()
         table = recorder.table
         sim.close()
-        self.closed("sim", lambda: sim.time, lambda: sim.step(1e-3), lambda: sim.run(1.0), sim.hash, sim.snapshot, sim.static,
+        self.closed("sim", lambda: sim.time, lambda: sim.step(1e-3), lambda: sim.run(1.0), sim.hash, sim.snapshot,
+                    sim.static,
                     sim.modes, sim.energy, sim.check, sim.check_text, lambda: sim.pose(string), recorder.take,
                     lambda: sim.output("position_x", string))
         self.assertEqual(len(table), 1)

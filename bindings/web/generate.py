@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what the JavaScript binding takes from the public headers: layouts of the structs on wasm32, constants, methods and their types.
+"""Writes what the JavaScript binding takes from the public headers: layouts of the structs on wasm32, constants,
+methods and their types.
 
 usage: generate.py FOLDER    writes interface.mjs, drillmbd.d.ts, layout_check.c and exports.txt there
 
-The headers are read by bindings/python/generate.py, which makes the Python structs too. layout_check.c holds a _Static_assert for the size
-of each struct and the place of each field, so that a wrong layout does not compile."""
+The headers are read by bindings/python/generate.py, which makes the Python structs too. layout_check.c holds a
+_Static_assert for the size of each struct and the place of each field, so that a wrong layout does not compile."""
 import importlib.util
 import json
 import pathlib
@@ -24,12 +25,16 @@ def python_generator():
 
 PYTHON = python_generator()
 #: Size [byte], which is the alignment too, and letter of each scalar on wasm32.
-SCALARS = {"c_int32": (4, "i"), "c_uint32": (4, "u"), "c_int64": (8, "l"), "c_uint64": (8, "L"), "c_double": (8, "d"), "c_size_t": (4, "u"),
+SCALARS = {"c_int32": (4, "i"), "c_uint32": (4, "u"), "c_int64": (8, "l"), "c_uint64": (8, "L"), "c_double": (8, "d"),
+           "c_size_t": (4, "u"),
            "c_char": (1, "c")}
 LETTERS = {"i": "number", "u": "number", "l": "bigint", "L": "bigint", "d": "number"}
-ARRAYS = {"dmb_model_add_time_function", "dmb_model_add_hole_sections"}  #: functions of a list of structs and its length
+#: functions of a list of structs and its length
+ARRAYS = {"dmb_model_add_time_function", "dmb_model_add_hole_sections"}
 HANDLES = {"dmb_model": "Model", "dmb_sim": "Sim"}
-BY_HAND = {"dmb_model_create", "dmb_model_destroy", "dmb_sim_create", "dmb_sim_destroy", "dmb_sim_hash", "dmb_query_profile", "dmb_sim_time", "dmb_sim_step", "dmb_sim_advance", "dmb_sim_snapshot_size", "dmb_model_message",
+BY_HAND = {"dmb_model_create", "dmb_model_destroy", "dmb_sim_create", "dmb_sim_destroy", "dmb_sim_hash",
+           "dmb_query_profile", "dmb_sim_time", "dmb_sim_step", "dmb_sim_advance", "dmb_sim_snapshot_size",
+           "dmb_model_message",
            "dmb_sim_message"}  #: drillmbd.mjs has these itself
 
 
@@ -55,8 +60,8 @@ class Layouts:
         return "p", 0, 4, 4
 
     def of(self, name):
-        """{"size", "align", "fields": [[name, letter or struct, count, offset, shape]]}; shape: of a pointer to numbers, the
-        field that counts them and how many numbers each is."""
+        """{"size", "align", "fields": [[name, letter or struct, count, offset, shape]]}; shape: of a pointer to
+        numbers, the field that counts them and how many numbers each is."""
         if name not in self.made:
             at, align, fields = 0, 1, []
             for field, ctype, _, text in self.structs[name][0]:
@@ -89,8 +94,8 @@ def method_name(c_name):
 
 
 def parameters(reader, c_name, text):
-    """[[way, type, name]] of the parameters behind the handle: way "in" or "out", "list" of structs, "text"; None where the
-    function needs more than these."""
+    """[[way, type, name]] of the parameters behind the handle: way "in" or "out", "list" of structs, "text"; None where
+    the function needs more than these."""
     found = []
     parts = [" ".join(one.split()) for one in text.split(",")][1:]
     for part in parts:
@@ -137,7 +142,8 @@ def methods(reader):
     found = {"Model": {}, "Sim": {}}
     for result, name, arguments, text in prototypes(reader):
         handle = re.match(r"(?:const )?(\w+) \*", arguments.strip())
-        if not handle or handle.group(1) not in HANDLES or name in BY_HAND or not re.match(r"dmb_(model|sim|query|analysis)_", name):
+        if not handle or handle.group(1) not in HANDLES or name in BY_HAND or \
+                not re.match(r"dmb_(model|sim|query|analysis)_", name):
             continue
         given = parameters(reader, name, arguments)
         letter = {"int32_t": "s", "uint32_t": "u", "double": "d"}.get(result)
@@ -158,9 +164,11 @@ def field_type(letter, count, shape, given=False):
     if letter == "p":
         return "ArrayLike<number> | null" if shape else "number"
     if letter in LETTERS:
-        return LETTERS[letter] if not count else "ArrayLike<number>" if given else "Float64Array" if letter == "d" else "number[]"
+        return (LETTERS[letter] if not count else "ArrayLike<number>" if given else "Float64Array" if letter == "d"
+                else "number[]")
     name = PYTHON.class_name(letter)
-    name = "Place | Id | null" if name == "Place" else "Id | null" if name == "Id" else name if not given else f"Partial<{name}>"
+    name = ("Place | Id | null" if name == "Place" else "Id | null" if name == "Id" else name if not given
+            else f"Partial<{name}>")
     return f"({name})[]" if count else name
 
 
@@ -176,7 +184,8 @@ def struct_types(reader, layouts):
                 yield from comment(*docs[field])
                 yield f"    {field}: {field_type(letter, count, shape)};"
         if name == "dmb_segment":
-            yield '    /** Of kind SEGMENT_CALLBACK: of the time [s], to the value, or to [value, rate, integral] by `provides`. */'
+            yield ('    /** Of kind SEGMENT_CALLBACK: of the time [s], to the value, or to [value, rate, integral] by '
+                   '`provides`. */')
             yield "    function?: (time: number) => number | number[];"
         yield "}"
 
@@ -194,7 +203,8 @@ def argument_type(way, letter):
 
 def result_type(outs):
     def one(letter, length):
-        return "Float64Array" if length and letter == "d" else "number[]" if length else LETTERS.get(letter) or PYTHON.class_name(letter)
+        return ("Float64Array" if length and letter == "d" else "number[]" if length else LETTERS.get(letter)
+                or PYTHON.class_name(letter))
     kinds = [(name, one(letter, length[0] if length else 0)) for _, letter, name, *length in outs]
     if not kinds:
         return "number"
@@ -227,11 +237,13 @@ def constants(reader):
 
 # ---- Files -----------------------------------------------------------------------------------------------------------
 def layout_check(layouts):
-    lines = ["/* Each layout of interface.mjs against the compiler's. Made by bindings/web/generate.py. */", "#include <stddef.h>", '#include "drillmbd.h"']
+    lines = ["/* Each layout of interface.mjs against the compiler's. Made by bindings/web/generate.py. */",
+             "#include <stddef.h>", '#include "drillmbd.h"']
     for name in layouts.structs:
         made = layouts.of(name)
         lines.append(f'_Static_assert(sizeof({name}) == {made["size"]}, "size of {name}");')
-        lines += [f'_Static_assert(offsetof({name}, {field}) == {at}, "{name}, {field}");' for field, _, _, at, *_ in made["fields"]]
+        lines += [f'_Static_assert(offsetof({name}, {field}) == {at}, "{name}, {field}");'
+                  for field, _, _, at, *_ in made["fields"]]
     return "\n".join(lines) + "\n"
 
 
@@ -246,15 +258,18 @@ def main():
     reader.structs, reader.prototypes = lambda: structs, lambda: prototypes_read
     layouts, found = Layouts(reader), methods(reader)
     sized = set(reader.sized)
-    shown = {name: {"size": layouts.of(name)["size"], "sized": name in sized, "fields": layouts.of(name)["fields"]} for name in layouts.structs}
+    shown = {name: {"size": layouts.of(name)["size"], "sized": name in sized, "fields": layouts.of(name)["fields"]}
+             for name in layouts.structs}
     parts = {"STRUCTS": shown, "CONSTANTS": constants(reader), "METHODS": found}
     text = "// Made from the headers by bindings/web/generate.py: do not edit, run that instead.\n" + "".join(
         f"export const {name} = {json.dumps(value, separators=(',', ':'))};\n" for name, value in parts.items())
     (folder / "interface.mjs").write_text(text, encoding="utf-8")
     (folder / "drillmbd.d.ts").write_text(declarations(reader, layouts, found), encoding="utf-8")
     (folder / "layout_check.c").write_text(layout_check(layouts), encoding="utf-8")
-    names = sorted({name for name, _, _ in reader.prototypes()} - {name for name, _, _ in reader.prototypes() if "write_" in name})
-    (folder / "exports.txt").write_text("".join(f"--export={name}\n" for name in [*names, "malloc", "free"]), encoding="utf-8")
+    names = sorted({name for name, _, _ in reader.prototypes()} - {name for name, _, _ in reader.prototypes()
+                                                                   if "write_" in name})
+    (folder / "exports.txt").write_text("".join(f"--export={name}\n" for name in [*names, "malloc", "free"]),
+                                        encoding="utf-8")
     return 0
 
 

@@ -25,7 +25,8 @@ class Panel:
     def line(self, a, b, colour, width=2, arrow=False, dash=False):
         more = ' marker-end="url(#tip)"' if arrow else ""
         more += ' stroke-dasharray="5 4"' if dash else ""
-        self.parts.append(f'<line x1="{self.x + a[0]:.1f}" y1="{self.y + a[1]:.1f}" x2="{self.x + b[0]:.1f}" y2="{self.y + b[1]:.1f}" '
+        self.parts.append(f'<line x1="{self.x + a[0]:.1f}" y1="{self.y + a[1]:.1f}" x2="{self.x + b[0]:.1f}" '
+                          f'y2="{self.y + b[1]:.1f}" '
                           f'stroke="{colour}" stroke-width="{width}"{more}/>')
 
     def ray(self, angle, length, colour, label, width=2, dash=False):
@@ -36,16 +37,20 @@ class Panel:
     def arc(self, start, end, radius, colour, label):
         """Clockwise for end > start."""
         a, b = self.place(start, radius), self.place(end, radius)
-        self.parts.append(f'<path d="M {self.x + a[0]:.1f} {self.y + a[1]:.1f} A {radius} {radius} 0 {int(abs(end - start) > 180)} {int(end > start)} '
-                          f'{self.x + b[0]:.1f} {self.y + b[1]:.1f}" fill="none" stroke="{colour}" stroke-width="2" marker-end="url(#tip)"/>')
+        self.parts.append(f'<path d="M {self.x + a[0]:.1f} {self.y + a[1]:.1f} A {radius} {radius} 0 '
+                          f'{int(abs(end - start) > 180)} {int(end > start)} '
+                          f'{self.x + b[0]:.1f} {self.y + b[1]:.1f}" fill="none" stroke="{colour}" stroke-width="2" '
+                          'marker-end="url(#tip)"/>')
         x, y = self.place(0.5 * (start + end), radius + 14 + 3.2 * len(label))
         self.text(x, y + 4, label, colour)
 
     def circle(self, radius, colour, fill="none", dx=0.0, dy=0.0):
-        self.parts.append(f'<circle cx="{self.x + dx:.1f}" cy="{self.y + dy:.1f}" r="{radius}" fill="{fill}" stroke="{colour}" stroke-width="2"/>')
+        self.parts.append(f'<circle cx="{self.x + dx:.1f}" cy="{self.y + dy:.1f}" r="{radius}" fill="{fill}" '
+                          f'stroke="{colour}" stroke-width="2"/>')
 
     def text(self, x, y, words, colour="#111", size=13, weight="normal"):
-        self.parts.append(f'<text x="{self.x + x:.1f}" y="{self.y + y:.1f}" fill="{colour}" font-size="{size}" font-weight="{weight}" '
+        self.parts.append(f'<text x="{self.x + x:.1f}" y="{self.y + y:.1f}" fill="{colour}" font-size="{size}" '
+                          f'font-weight="{weight}" '
                           f'text-anchor="middle">{words}</text>')
 
 
@@ -92,9 +97,11 @@ def from_the_rig(parts):
 def along_the_string(parts):
     panel = Panel(parts, 495, 450, "Along the string")
     for number in range(3):
-        parts.append(f'<rect x="{panel.x - 270 + 170 * number}" y="{panel.y - 62}" width="160" height="26" fill="#e8eef6" stroke="{BLUE}"/>')
+        parts.append(f'<rect x="{panel.x - 270 + 170 * number}" y="{panel.y - 62}" width="160" height="26" '
+                     f'fill="#e8eef6" stroke="{BLUE}"/>')
         panel.text(-190 + 170 * number, -44, f"pipe {number}, fraction 0 .. 1", BLUE)
-        parts.append(f'<rect x="{panel.x - 110 + 170 * number}" y="{panel.y - 66}" width="10" height="34" fill="{BLUE}"/>')
+        parts.append(f'<rect x="{panel.x - 110 + 170 * number}" y="{panel.y - 66}" width="10" height="34" '
+                     f'fill="{BLUE}"/>')
     panel.text(-335, -44, "rig", "#111", 14, "bold")
     panel.text(270, -44, "bit", "#111", 14, "bold")
     panel.line((-300, -15), (-220, -15), RED, 3, True)
@@ -107,14 +114,19 @@ def along_the_string(parts):
     panel.line((0, 12), (60, 12), RED, 3, True)
     panel.line((150, 12), (90, 12), RED, 3, True)
     panel.text(240, 16, "compression &lt; 0", RED)
-    panel.text(0, 44, "the torque of a section is that of the far side on the near side: negative while a string that turns clockwise drills")
+    panel.text(0, 44,
+               "the torque of a section is that of the far side on the near side: negative while a string that turns "
+               "clockwise drills")
 
 
 def drawing():
     """The text of the file."""
-    parts = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 990 510" font-family="Helvetica, Arial, sans-serif">',
-             '<defs><marker id="tip" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="6" markerHeight="6" orient="auto-start-reverse">'
-             '<path d="M 0 0 L 10 5 L 0 10 z" fill="context-stroke"/></marker></defs>', '<rect width="990" height="510" fill="white"/>']
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 990 510" font-family="Helvetica, Arial, '
+             'sans-serif">',
+             '<defs><marker id="tip" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="6" markerHeight="6" '
+             'orient="auto-start-reverse">'
+             '<path d="M 0 0 L 10 5 L 0 10 z" fill="context-stroke"/></marker></defs>',
+             '<rect width="990" height="510" fill="white"/>']
     for panel in (from_above, from_the_side, from_the_rig, along_the_string):
         panel(parts)
     return "\n".join([*parts, "</svg>"]) + "\n"

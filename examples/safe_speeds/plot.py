@@ -3,9 +3,9 @@
 
 usage: plot.py FOLDER
 
-Reads the tables of the folder and writes safe_speeds.png into it. The upper part is for the crew: green speeds are fine,
-yellow ones near a limit, red ones beyond it. Below is the Campbell diagram of one depth: orders of the speed against the
-natural frequencies that they meet, those of the string as it turns; and natural frequencies over the depth.
+Reads the tables of the folder and writes safe_speeds.png into it. The upper part is for the crew: green speeds are
+fine, yellow ones near a limit, red ones beyond it. Below is the Campbell diagram of one depth: orders of the speed
+against the natural frequencies that they meet, those of the string as it turns; and natural frequencies over the depth.
 """
 import csv
 import pathlib

@@ -58,9 +58,11 @@ def elastica(pictures):
     for load, want in MATTIASSON.items():
         for elements, bound in ((8, 6e-6), (16, 4e-7)):
             got = found[load, elements] = elastica_tip(load, elements)
-            for name, unit, reference, computed in zip(("deflection w/L", "shortening", "slope"), ("-", "-", "rad"), want,
+            for name, unit, reference, computed in zip(("deflection w/L", "shortening", "slope"), ("-", "-", "rad"),
+                                                       want,
                                                        got):
-                rows.append(Row(f"{name} at P L²/EI = {load:g}", unit, reference, computed, f"{elements} elements", bound,
+                rows.append(Row(f"{name} at P L²/EI = {load:g}", unit, reference, computed, f"{elements} elements",
+                                bound,
                                 1.0))
     def draw(axes):
         for k, name in enumerate(("deflection w/L", "shortening", "slope [rad]")):
@@ -72,7 +74,8 @@ def elastica(pictures):
     return Case("elastica", "Cantilever under a dead tip load (elastica)", "published",
                 "Mattiasson 1981, Int. J. Numer. Meth. Eng. 17, 145, by elliptic integrals, ten digits",
                 "10.1002/nme.1620170113", "EI = L = 1, EA = GA = 1e9 (so stiff that stretch and shear are below 1e-8)",
-                "nothing", rows, "Errors fall by 16 as elements are halved: fourth order, as in all bending in one plane.",
+                "nothing", rows,
+                "Errors fall by 16 as elements are halved: fourth order, as in all bending in one plane.",
                 pictures=[picture(draw)] if pictures else [])
 
 
@@ -114,14 +117,18 @@ def bend(pictures):
         for k, name in enumerate("xyz"):
             axes.plot(loads, tips[:, k], color=f"C{k}", label=name)
             for marker, source in zip("os", BENDS[300.0]):
-                axes.plot(list(BENDS), [BENDS[load][source][k] for load in BENDS], marker, color=f"C{k}", fillstyle="none")
+                axes.plot(list(BENDS), [BENDS[load][source][k] for load in BENDS], marker, color=f"C{k}",
+                          fillstyle="none")
         axes.set(xlabel="tip force", ylabel="place of the tip", title="circles: Bathe; squares: Simo; lines: computed")
         axes.legend()
     return Case("bend", "Cantilever bent by 45 degrees, loaded across its plane", "published",
-                "Bathe, Bolourchi 1979, Int. J. Numer. Meth. Eng. 14, 961; Simo, Vu-Quoc 1986, Comput. Meth. Appl. Mech. "
+                "Bathe, Bolourchi 1979, Int. J. Numer. Meth. Eng. 14, 961; Simo, Vu-Quoc 1986, Comput. Meth. Appl. "
+                "Mech. "
                 "Eng. 58, 79", "10.1002/nme.1620140703, 10.1016/0045-7825(86)90079-4",
-                "arc of radius 100, unit square section, E 1e7, ν 0; shear area and torsion constant of the latter paper",
-                "nothing", rows, "The published values differ from each other by up to 1.4 %: they come from 8 elements.",
+                "arc of radius 100, unit square section, E 1e7, ν 0; shear area and torsion constant of the latter "
+                "paper",
+                "nothing", rows,
+                "The published values differ from each other by up to 1.4 %: they come from 8 elements.",
                 pictures=[picture(draw)] if pictures else [])
 
 
@@ -132,13 +139,15 @@ def lee_path(elements):
     stiffness = (6.0 * e, 5.0 * e / 2.6, 5.0 * e / 2.6, 2.0 * e, 2.0 * e, 2.0 * e)
     with weightless() as model:
         post = beam(model, 120.0, elements, stiffness, free=mbd.FREE_RY, rotation=(0.0, -0.5 * PI, 0.0))
-        top = model.add_string(follows_hole=0, start_free=mbd.FREE_ALL, end_free=mbd.FREE_RY, position=(0.0, 0.0, 120.0))
+        top = model.add_string(follows_hole=0, start_free=mbd.FREE_ALL, end_free=mbd.FREE_RY,
+                               position=(0.0, 0.0, 120.0))
         for length, part in ((24.0, elements // 5), (96.0, elements - elements // 5)):
             model.add_pipes(1, string=top, length=length, elements=part, outer_diameter=0.02, inner_diameter=0.0,
                             section_stiffness=stiffness)
         model.add_joint(place_a=mbd.station(post, 0, 1.0), place_b=mbd.station(top, 0, 0.0), match=1)
         place = mbd.station(top, 0, 1.0)
-        push = model.add_load(place=place, force=(0.0, 0.0, -2.0 * e / 120.0 ** 2), time_function=model.add_time_function(0.0))
+        push = model.add_load(place=place, force=(0.0, 0.0, -2.0 * e / 120.0 ** 2),
+                              time_function=model.add_time_function(0.0))
         model.compile()
         with model.sim() as sim:
             def visit(_at, point):
@@ -165,9 +174,11 @@ def lee(pictures):
         axes.set(xlabel="displacement of the load point", ylabel="P L²/EI", title="snap-through and snap-back")
         axes.legend()
     return Case("lee", "Lee's frame: limit loads and snap-back", "published",
-                "Lee, Manuel, Rossow 1968, J. Eng. Mech. Div. ASCE 94, 527; limit load 18.552 after Schweizerhof, Wriggers "
+                "Lee, Manuel, Rossow 1968, J. Eng. Mech. Div. ASCE 94, 527; limit load 18.552 after Schweizerhof, "
+                "Wriggers "
                 "1986, Comput. Meth. Appl. Mech. Eng. 59, 261", "",
-                "post and beam of 120, E 720, A 6, I 2, ν 0.3, hinged ends, load at a fifth of the beam", "nothing", rows,
+                "post and beam of 120, E 720, A 6, I 2, ν 0.3, hinged ends, load at a fifth of the beam", "nothing",
+                rows,
                 "The lower limit load is published to two digits.", pictures=[picture(draw)] if pictures else [])
 
 
@@ -189,7 +200,8 @@ def spin_up(elements, step, end=20.0):
         string = beam(model, 10.0, elements, (2.8e7, 1e7, 1e7, 1e4, 1.4e4, 1.4e4), free=mbd.FREE_RZ, mass=1.2,
                       inertia=(1.2e-3, 6e-4))
         model.add_drive(component=mbd.RZ, part=string,
-                        time_function=model.add_time_function(mbd.Segment(function=spun, provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)))
+                        time_function=model.add_time_function(mbd.Segment(function=spun, provides=mbd.PROVIDES_RATE
+                                                                          | mbd.PROVIDES_INTEGRAL)))
         model.compile()
         with model.sim(spectral_radius=0.8) as sim:
             root, tip = mbd.station(string, 0, 0.0), mbd.station(string, 0, 1.0)
@@ -217,8 +229,11 @@ def spin_up_beam(pictures):
         axes.set(xlabel="time [s]", ylabel="tip displacement [m]", title="16 elements")
         axes.legend()
     return Case("spin_up", "Spin-up of a flexible beam", "published", "Simo, Vu-Quoc 1986, J. Appl. Mech. 53, 855",
-                "10.1115/1.3171871", "EA 2.8e7, GA 1e7, EI 1.4e4, ρA 1.2, ρI 6e-4, L 10, 6 rad/s within 15 s", "nothing",
-                rows, "The paper gives curves; the stretch of the steady rotation has a closed form (5.14e-4 m in the paper). "
+                "10.1115/1.3171871", "EA 2.8e7, GA 1e7, EI 1.4e4, ρA 1.2, ρI 6e-4, L 10, 6 rad/s within 15 s",
+                "nothing",
+                rows,
+                "The paper gives curves; the stretch of the steady rotation has a closed form (5.14e-4 m in the "
+                "paper). "
                 "The deflection is read off its curve to two digits.", pictures=[picture(draw)] if pictures else [])
 
 
@@ -249,7 +264,8 @@ def right_angle_cantilever(pictures):
     fine = table[-1, 2]
     for elements, step, bound in ((5, 0.05, 3e-3), (10, 0.025, 3e-4)):
         rows.append(Row("tip across the plane at 10 s, against 20 elements and 12.5 ms", "-", fine,
-                        right_angle(elements, step, 10.0)[-1, 2], f"{elements} elements a leg, {1e3 * step:g} ms", bound))
+                        right_angle(elements, step, 10.0)[-1, 2], f"{elements} elements a leg, {1e3 * step:g} ms",
+                        bound))
     whole = right_angle(10, 0.05) if pictures else None
     def draw(axes):
         axes.plot(whole[:, 0], whole[:, 1], label="elbow")
@@ -258,8 +274,10 @@ def right_angle_cantilever(pictures):
         axes.legend()
     return Case("right_angle", "Right-angle cantilever", "published",
                 "Simo, Vu-Quoc 1988, Comput. Meth. Appl. Mech. Eng. 66, 125", "10.1016/0045-7825(88)90073-4",
-                "two legs of 10, EA = GA = 1e6, EI = GJ = 1e3, ρA 1, ρI 10; 50 at the elbow in 1 s and back", "nothing", rows,
-                "The paper gives a curve, whose shape and size the picture shows; digits are held against a finer mesh.",
+                "two legs of 10, EA = GA = 1e6, EI = GJ = 1e3, ρA 1, ρI 10; 50 at the elbow in 1 s and back", "nothing",
+                rows,
+                "The paper gives a curve, whose shape and size the picture shows; digits are held against a finer "
+                "mesh.",
                 pictures=[picture(draw)] if pictures else [])
 
 
@@ -337,7 +355,8 @@ def princeton(pictures):
             for elements, bound in ((5, 1.2e-3), (10, 3e-4), (20, 8e-5)):
                 got = princeton_tip(load, theta, elements)
                 for (name, unit), reference, computed in zip(names, want, got):
-                    rows.append(Row(f"{name}, {load:g} N at {theta}°", unit, reference, computed, f"{elements} elements",
+                    rows.append(Row(f"{name}, {load:g} N at {theta}°", unit, reference, computed,
+                                    f"{elements} elements",
                                     bound, LENGTH if unit == "m" else 1.0))
     def draw(axes):
         fine = range(0, 91, 5)
@@ -353,9 +372,12 @@ def princeton(pictures):
     return Case("princeton", "Princeton beam: bending and twist coupled by large deflection", "published",
                 "Dowell, Traybar, Hodges 1977, J. Sound Vib. 50, 533; parameters of Bauchau and others 2016",
                 "10.1007/s11044-014-9430-y",
-                f"L {LENGTH} m, {1e3 * TALL:g} x {1e3 * WIDE:g} mm, E {YOUNG / 1e9:g} GPa, ν {POISSON}; dead tip load at an "
+                f"L {LENGTH} m, {1e3 * TALL:g} x {1e3 * WIDE:g} mm, E {YOUNG / 1e9:g} GPa, ν {POISSON}; dead tip load "
+                "at an "
                 "angle to the tall side; weight left out", "nothing", rows,
-                "The measured values are published as figures and were not at hand as digits, so that this row is against the "
-                "geometrically exact rod, integrated by shooting in this page (DOP853, 1e-10): points. Errors fall by 4 as elements are halved: "
+                "The measured values are published as figures and were not at hand as digits, so that this row is "
+                "against the "
+                "geometrically exact rod, integrated by shooting in this page (DOP853, 1e-10): points. Errors fall by "
+                "4 as elements are halved: "
                 "second order, because the moment is not along the curvature (EI_y = 15 EI_z).",
                 pictures=[picture(draw, 3, 9.5, 3.0)] if pictures else [])

@@ -1,5 +1,5 @@
-"""A string without bending stiffness that hangs in a hole wider than itself: how much of the wall forces of a soft string, which
-follows the axis of the hole, is left."""
+"""A string without bending stiffness that hangs in a hole wider than itself: how much of the wall forces of a soft
+string, which follows the axis of the hole, is left."""
 import math
 import tomllib
 
@@ -9,7 +9,8 @@ GRAVITY = 9.81
 
 
 def pieces(path, density, longest=10.0):
-    """Lengths [m], weights in mud [N/m] and outer diameters [m] of pieces of the pipes of a scene file, from the rig down."""
+    """Lengths [m], weights in mud [N/m] and outer diameters [m] of pieces of the pipes of a scene file, from the rig
+    down."""
     def number(text):
         return float(text.split()[0])
     table = []
@@ -23,11 +24,12 @@ def pieces(path, density, longest=10.0):
 
 
 def wall_forces(sim, lengths, weights, outers, sweeps=500):
-    """Lateral load [N] of the wall, friction factor and radius [m] of the string at the ends of the pieces, without friction.
+    """Lateral load [N] of the wall, friction factor and radius [m] of the string at the ends of the pieces, without
+    friction.
 
-    The string has the energy sum T |r_(i+1) - r_i| + w z with the tensions T of its hanging weight, dT = w dz. Its nodes
-    move across the hole, |u_i| <= clearance, and each in turn goes to its least energy (projected Gauss-Seidel, even and odd
-    nodes by turns); the wall bears what is left."""
+    The string has the energy sum T |r_(i+1) - r_i| + w z with the tensions T of its hanging weight, dT = w dz. Its
+    nodes move across the hole, |u_i| <= clearance, and each in turn goes to its least energy (projected Gauss-Seidel,
+    even and odd nodes by turns); the wall bears what is left."""
     depths = np.concatenate([[0.0], np.cumsum(lengths)])
     holes = [sim.hole(depth) for depth in depths]
     axis, along = (np.array([list(getattr(hole, name)) for hole in holes]) for name in ("position", "tangent"))

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """The string of the rig falls on the low side of its hole: by the library and by a general finite element program.
 
-usage: finite_elements.py          runs CalculiX (ccx, package calculix-ccx) and stores its motion in finite_elements.csv
+usage: finite_elements.py          runs CalculiX (ccx, package calculix-ccx) and stores its motion in
+                                   finite_elements.csv
 """
 import csv
 import math
@@ -21,8 +22,8 @@ STEP, END = 5e-4, 0.1  #: [s]
 
 
 def calculix_input():
-    """Beams of two nodes, a gap element with a spring below each node, the first end clamped, gravity from the start. Of the solid
-    square sections the bending stiffness and the mass are those of the pipe."""
+    """Beams of two nodes, a gap element with a spring below each node, the first end clamped, gravity from the start.
+    Of the solid square sections the bending stiffness and the mass are those of the pipe."""
     area, second = 0.25 * math.pi * (OUTER ** 2 - INNER ** 2), math.pi / 64.0 * (OUTER ** 4 - INNER ** 4)
     side = (12.0 * second) ** 0.25
     lines = ["*NODE"] + [f"{k + 1},{k}.,0.,0." for k in range(PIPES + 1)]
@@ -30,11 +31,13 @@ def calculix_input():
     lines += ["*ELEMENT, TYPE=B31, ELSET=PIPES"] + [f"{k},{k},{k + 1}" for k in range(1, PIPES + 1)]
     lines += ["*ELEMENT, TYPE=GAPUNI, ELSET=WALL"] + [f"{k + 5000},{k + 10001},{k + 1}" for k in range(1, PIPES + 1)]
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG},0.3", "*DENSITY", f"{DENSITY * area / side ** 2}",
-              "*BEAM SECTION, ELSET=PIPES, MATERIAL=STEEL, SECTION=RECT", f"{side},{side}", "0.,1.,0.", "*GAP, ELSET=WALL",
+              "*BEAM SECTION, ELSET=PIPES, MATERIAL=STEEL, SECTION=RECT", f"{side},{side}", "0.,1.,0.",
+              "*GAP, ELSET=WALL",
               f"{CLEARANCE},0.,0.,1.,,{STIFFNESS},1.e-6", "*BOUNDARY", "1,1,6"]
     lines += [f"{k + 10001},1,3" for k in range(1, PIPES + 1)]
     lines += ["*STEP, NLGEOM, INC=100000", "*DYNAMIC, DIRECT, ALPHA=0.", f"{STEP},{END}", "*DLOAD",
-              f"PIPES,GRAV,{GRAVITY},0.,0.,-1.", "*NSET, NSET=SHOWN", "51,81", "*NODE PRINT, NSET=SHOWN", "U", "*END STEP"]
+              f"PIPES,GRAV,{GRAVITY},0.,0.,-1.", "*NSET, NSET=SHOWN", "51,81", "*NODE PRINT, NSET=SHOWN", "U",
+              "*END STEP"]
     return "\n".join(lines) + "\n"
 
 
@@ -43,7 +46,8 @@ def calculix():
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "drop.inp").write_text(calculix_input(), encoding="ascii")
         before = os.times()
-        subprocess.run(["ccx", "drop"], cwd=folder, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        subprocess.run(["ccx", "drop"], cwd=folder, check=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "OMP_NUM_THREADS": "1"})
         after = os.times()
         table, now = [], {}
         for line in pathlib.Path(folder, "drop.dat").read_text(encoding="ascii").splitlines():
@@ -64,7 +68,8 @@ def library():
         model.add_wall(diameter=OUTER + 2.0 * CLEARANCE, direction=(1.0, 0.0, 0.0), mu_static=0.0, mu_dynamic=0.0,
                        normal_law=mbd.NORMAL_KELVIN_VOIGT, damping=0.0, stiffness=STIFFNESS)
         string = model.add_string(start_free=mbd.FREE_NONE)
-        model.add_pipes(PIPES, string=string, length=1.0, outer_diameter=OUTER, inner_diameter=INNER, young_modulus=YOUNG,
+        model.add_pipes(PIPES, string=string, length=1.0, outer_diameter=OUTER, inner_diameter=INNER,
+                        young_modulus=YOUNG,
                         density=DENSITY)
         model.compile()
         table, spent = [], 0.0
@@ -73,7 +78,8 @@ def library():
                 before = time.process_time()
                 sim.step(STEP)
                 spent += time.process_time() - before
-                table.append((sim.time, *(sim.pose(mbd.station(string, pipe, 1.0)).displacement[2] for pipe in (49, 79))))
+                table.append((sim.time, *(sim.pose(mbd.station(string, pipe, 1.0)).displacement[2]
+                                          for pipe in (49, 79))))
     return table, spent / len(table)
 
 
@@ -97,12 +103,17 @@ def finite_elements(pictures):
         axes.set(xlabel="time [s]", ylabel="height over the axis [mm]")
         axes.legend()
     return Case("finite_elements", "The rig's string in its hole by a general finite element program", "published",
-                "CalculiX 2.20 (Dhondt, Wittig), run by examples/validation/finite_elements.py; its motion is stored beside it", "",
-                "100 pipes of 1 m, 73 x 6 mm, clamped at the rig, in a level hole of 94 mm; from rest on the axis under gravity; wall of "
-                "1e7 N/m at each node, no damping, no friction, no rotation (gap elements have no friction); one element a "
+                "CalculiX 2.20 (Dhondt, Wittig), run by examples/validation/finite_elements.py; its motion is stored "
+                "beside it", "",
+                "100 pipes of 1 m, 73 x 6 mm, clamped at the rig, in a level hole of 94 mm; from rest on the axis "
+                "under gravity; wall of "
+                "1e7 N/m at each node, no damping, no friction, no rotation (gap elements have no friction); one "
+                "element a "
                 "pipe and steps of 0.5 ms in both", "nothing", rows,
-                f"Cost of a step on one core, both measured one after the other when the motion was stored: CalculiX {1e3 * costs[0]:.0f} ms, the "
-                f"library {1e6 * costs[1]:.0f} µs: {costs[0] / costs[1]:.0f} times less. CalculiX expands its beams to solids and iterates twice a "
+                "Cost of a step on one core, both measured one after the other when the motion was stored: CalculiX "
+                f"{1e3 * costs[0]:.0f} ms, the "
+                f"library {1e6 * costs[1]:.0f} µs: {costs[0] / costs[1]:.0f} times less. CalculiX expands its beams to "
+                "solids and iterates twice a "
                 "step; a beam code of finite elements would be cheaper than that.",
                 pictures=[picture(draw)] if pictures else [])
 

@@ -1,4 +1,5 @@
-"""Mechanisms of the library of multibody benchmarks (IFToMM) against closed forms, other equations or published digits."""
+"""Mechanisms of the library of multibody benchmarks (IFToMM) against closed forms, other equations or published
+digits."""
 import math
 
 import numpy as np
@@ -32,7 +33,8 @@ def hinge(model, a, b, at, **more):
 
 # ---- Pendulum --------------------------------------------------------------------------------------------------------
 def pendulum_closed(t, inertia=1e-6, length=1.0):
-    """Angle from the horizontal, started at rest there: sin of half the angle from the bottom = k sn(K - w t), k^2 = 1/2."""
+    """Angle from the horizontal, started at rest there: sin of half the angle from the bottom = k sn(K - w t), k^2 =
+    1/2."""
     from scipy.special import ellipj, ellipk
     w = math.sqrt(GRAVITY * length / (length * length + inertia))
     sn = ellipj(ellipk(0.5) - w * np.asarray(t), 0.5)[0]
@@ -75,14 +77,15 @@ def pendulum(pictures):
         axes.set(xlabel="step [ms]", ylabel="error [m]")
         axes.legend()
     return Case("pendulum", "Simple pendulum", "published", BENCHMARKS.format("A01"), BENCHMARKS_DOI,
-                "point mass of 1 kg on a massless rod of 1 m, from rest in the horizontal, 10 s; closed form by Jacobi's "
+                "point mass of 1 kg on a massless rod of 1 m, from rest in the horizontal, 10 s; closed form by "
+                "Jacobi's "
                 "elliptic functions", "nothing", rows, pictures=[picture(draw)] if pictures else [])
 
 
 # ---- N four-bar ------------------------------------------------------------------------------------------------------
 def bars_reduced(windows, end=10.0):
-    """Angle of the bars from the x axis by the one equation of motion: all uprights turn alike, couplers move with their
-    ends. M phi'' = -g sum cos(phi), M = (N + 1)/3 + N, sum of heights (N + 1)/2 + N."""
+    """Angle of the bars from the x axis by the one equation of motion: all uprights turn alike, couplers move with
+    their ends. M phi'' = -g sum cos(phi), M = (N + 1)/3 + N, sum of heights (N + 1)/2 + N."""
     from scipy.integrate import solve_ivp
     inertia, height = (windows + 1) / 3.0 + windows, (windows + 1) / 2.0 + windows
     answer = solve_ivp(lambda _t, s: (s[1], -GRAVITY * height / inertia * math.cos(s[0])), (0.0, end),
@@ -130,11 +133,14 @@ def four_bars(pictures):
     def draw(axes):
         for windows in (2, 10):
             used = [step for step in steps if (windows, step) in errors]
-            axes.loglog(1e3 * np.array(used), [errors[windows, step] for step in used], "o-", label=f"{windows} windows")
+            axes.loglog(1e3 * np.array(used), [errors[windows, step] for step in used], "o-",
+                        label=f"{windows} windows")
         axes.set(xlabel="step [ms]", ylabel="error of the place at 10 s [m]")
         axes.legend()
-    return Case("four_bars", "N four-bar mechanism through its singular positions", "published", BENCHMARKS.format("A02"),
-                BENCHMARKS_DOI, "slender rods of 1 m and 1 kg, hinges along x on the ground, first corner at 1 m/s, 10 s; "
+    return Case("four_bars", "N four-bar mechanism through its singular positions", "published",
+                BENCHMARKS.format("A02"),
+                BENCHMARKS_DOI,
+                "slender rods of 1 m and 1 kg, hinges along x on the ground, first corner at 1 m/s, 10 s; "
                 "reference: the one equation of motion of the mechanism, solved by DOP853 at 1e-12", "nothing", rows,
                 "All bars lie on one line twice a swing, where the mechanism could leave its branch.",
                 pictures=[picture(draw)] if pictures else [])
@@ -164,7 +170,8 @@ def squeezer(step, end=0.03):
         h = (a[0] + 0.04 * math.sin(q["epsilon"]), a[1] - 0.04 * math.cos(q["epsilon"]))
         rod6 = body(model, h, omega + q["epsilon"], 0.00706, 5.667e-7, 0.02 - 0.01421)
         at = {name: mbd.station(part) for name, part in (("crank", crank), ("rod", rod), ("triangle", triangle),
-                                                         ("arm5", arm5), ("rod4", rod4), ("arm7", arm7), ("rod6", rod6))}
+                                                         ("arm5", arm5), ("rod4", rod4), ("arm7", arm7),
+                                                         ("rod6", rod6))}
         joints = {"beta": hinge(model, GROUND, at["crank"], (0.0, 0.0, 0.0)),
                   "gamma": hinge(model, GROUND, at["triangle"], (*b, 0.0)),
                   "delta": hinge(model, GROUND, at["arm5"], (*a, 0.0)),
@@ -178,7 +185,8 @@ def squeezer(step, end=0.03):
                             axis_a=(0.0, 0.0, 1.0), origin_a=(28e-3, 0.0, 0.0), origin_b=origin)
         model.add_spring(place_a=GROUND, place_b=at["triangle"], offset_a=(*c, 0.0), offset_b=(0.02, -0.018, 0.0),
                          free_length=0.07785, stiffness=4530.0)
-        model.add_drive(kind=mbd.DRIVE_LOAD, part=joints["beta"], component=mbd.RX, time_function=model.add_time_function(0.033))
+        model.add_drive(kind=mbd.DRIVE_LOAD, part=joints["beta"], component=mbd.RX,
+                        time_function=model.add_time_function(0.033))
         model.compile()
         with model.sim() as sim:
             shift = {name: q[name] - sim.joint(joint).position[3] for name, joint in joints.items()}
@@ -202,10 +210,12 @@ def andrews(pictures):
         axes.set(xlabel="step [µs]", ylabel="error [rad]")
         axes.legend()
     return Case("squeezer", "Andrews' squeezing mechanism", "published",
-                "Hairer, Wanner, Solving Ordinary Differential Equations II; digits at 0.03 s of the Test Set for IVP Solvers "
+                "Hairer, Wanner, Solving Ordinary Differential Equations II; digits at 0.03 s of the Test Set for IVP "
+                "Solvers "
                 "(PSIDE at 1e-14); also problem A03 of the library of multibody benchmarks",
                 f"10.1007/978-3-642-05221-7, {BENCHMARKS_DOI}",
-                "seven bodies, ten hinges, a spring of 4530 N/m, 0.033 N m at the crank, which turns 2.5 times in 0.03 s",
+                "seven bodies, ten hinges, a spring of 4530 N/m, 0.033 N m at the crank, which turns 2.5 times in "
+                "0.03 s",
                 "nothing", rows, pictures=[picture(draw)] if pictures else [])
 
 
@@ -257,7 +267,8 @@ def governor_run(step, times):
             rod = model.add_body(mass=mass, centre=(centre, 0.0, 0.0), rotation=(0.0, turned, 0.0),
                                  inertia=(ALONG, across, across, 0.0, 0.0, 0.0),
                                  velocity=(0.0, 0.0, 0.0, -RATE * math.sin(turned), 0.0, RATE * math.cos(turned)))
-            model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=top, place_b=mbd.station(rod), match=1, axis_a=(0.0, 1.0, 0.0))
+            model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=top, place_b=mbd.station(rod), match=1,
+                            axis_a=(0.0, 1.0, 0.0))
             model.add_spring(place_a=hung, place_b=mbd.station(rod), offset_b=(0.5, 0.0, 0.0), free_length=REST,
                              stiffness=SPRING, damping=DAMPER)
         model.compile()
@@ -275,7 +286,8 @@ def governor(pictures):
     want, rows = governor_reduced(times), []
     for step in (4e-3, 2e-3, 1e-3):
         for time, reference, computed in zip(times, want, governor_run(step, times)):
-            rows.append(Row(f"distance of the slider at {time:g} s", "m", reference, computed, f"step {1e3 * step:g} ms",
+            rows.append(Row(f"distance of the slider at {time:g} s", "m", reference, computed,
+                            f"step {1e3 * step:g} ms",
                             4e-4 * (step / 4e-3) ** 2, 1.0))
     fine = np.linspace(0.02, 10.0, 500)
     def draw(axes):
@@ -285,6 +297,7 @@ def governor(pictures):
         axes.set(xlabel="time [s]", ylabel="distance of the slider [m]")
         axes.legend()
     return Case("governor", "Stiff flyball governor", "published", BENCHMARKS.format("A05"), BENCHMARKS_DOI,
-                "shaft, two rods of 1 m with balls of 5 kg, slider of 3 kg, springs of 8e5 N/m with dampers of 4e4 N s/m, "
+                "shaft, two rods of 1 m with balls of 5 kg, slider of 3 kg, springs of 8e5 N/m with dampers of 4e4 N "
+                "s/m, "
                 "2π rad/s, 10 s; reference: the three equations of motion, by Radau at 1e-10", "nothing", rows,
                 pictures=[picture(draw)] if pictures else [])

@@ -4,7 +4,8 @@
 usage: page.py OUTPUT [--study PROGRAM] [--cases NAME,NAME] [--text] [--store]
 
 Writes OUTPUT/validation.html and OUTPUT/validation.txt. PROGRAM is build/.../examples/reference_study; without it the
-section of the reference study is left out. --text prints the table; --store keeps the errors that the tests compare with.
+section of the reference study is left out. --text prints the table; --store keeps the errors that the tests compare
+with.
 """
 import argparse
 import csv
@@ -39,10 +40,12 @@ from drillmbd.report_page import STYLE
 GROUPS = (("measured", "Against measurements", "Figures that were measured in wells and tests."),
           ("published", "Against figures that others published or computed",
            "Benchmarks with certain digits, closed forms, and other methods that this page carries itself."))
-#: References that were searched for in public pages, documentation and repositories, with the reason why none is compared.
+#: References that were searched for in public pages, documentation and repositories, with the reason why none is
+#: compared.
 ABSENT = (
     ("Laboratory drill string of the Federal University of Rio de Janeiro (doi:10.1016/j.petrol.2018.07.008)",
-     "speed, torque and weight on bit are public (thiagoritto/drillstring), without a licence; stiffness of the shaft and inertia of the "
+     "speed, torque and weight on bit are public (thiagoritto/drillstring), without a licence; stiffness of the shaft "
+     "and inertia of the "
      "discs were not found as figures"),
     ("Drill-string set-up of Eindhoven (Mihajlović and others 2004)",
      "abstracts of papers and thesis were found, tables of parameters and limit cycles were not"),
@@ -50,12 +53,14 @@ ABSENT = (
     ("Bricard's mechanism, problem A04 of the library of benchmarks", "the reference motion was found as a curve only"),
     ("Flexible slider-crank, rotating shaft of Bauchau", "parameters or reference digits were not found"),
     ("Coupled axial and torsional vibration of a distributed string (Aarsnes, van de Wouw 2019)",
-     "the parameters that belong to the published roots were not found; the axial model is compared by its characteristic equation"))
+     "the parameters that belong to the published roots were not found; the axial model is compared by its "
+     "characteristic equation"))
 CLASSES = {"within": "ok", MISSED: "over", "shown": "open"}
 MORE_STYLE = """table.rows td,table.rows th{font-size:13px}td.number{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;margin:.4em 0}dt{font-weight:bold}dd{margin:0}
-h3{font-size:1.05em;margin:1.6em 0 .2em}summary{cursor:pointer;margin:.4em 0}svg{max-width:100%;height:auto;display:block;margin:.4em 0}"""
-assert all((beams, finite_elements, mechanisms, paths, regenerative, rock, rolling, rotors, stick_slip, tables, torsion, wells, wing, work))
+h3{font-size:1.05em;margin:1.6em 0 .2em}summary{cursor:pointer;margin:.4em 0}svg{max-width:100%;height:auto;display:block;margin:.4em 0}"""  # noqa: E501
+assert all((beams, finite_elements, mechanisms, paths, regenerative, rock, rolling, rotors, stick_slip, tables, torsion,
+            wells, wing, work))
 
 
 def number(value: float) -> str:
@@ -75,7 +80,8 @@ def bound_of(row: Row) -> str:
 
 def rows_html(case: Case) -> str:
     """All rows of a case as a table."""
-    head = "".join(f"<th>{name}</th>" for name in ("quantity", "mesh, step", "reference", "computed", "error", "accepted",
+    head = "".join(f"<th>{name}</th>" for name in ("quantity", "mesh, step", "reference", "computed", "error",
+                                                   "accepted",
                                                    "fitted", ""))
     body = "".join(
         f'<tr class="{CLASSES[row.verdict]}"><td>{html.escape(row.quantity)} [{row.unit}]</td>'
@@ -101,7 +107,8 @@ def case_html(case: Case) -> str:
     if len(case.rows) > 12:
         table = f"<details><summary>all {len(case.rows)} rows</summary>{table}</details>"
     return (f'<section id="{case.name}"><h3 class="{CLASSES[case.verdict]}">{html.escape(case.title)} '
-            f'<span class="verdict">{case.verdict}</span></h3><dl>{listed}</dl>{"".join(case.pictures)}{table}</section>')
+            f'<span class="verdict">{case.verdict}</span></h3><dl>{listed}</dl>'
+            f'{"".join(case.pictures)}{table}</section>')
 
 
 def finest(case: Case) -> Row:
@@ -123,8 +130,10 @@ def overview(cases: list[Case]) -> str:
                   f"<td>{html.escape(row.quantity)}{', ' + html.escape(row.settings) if row.settings else ''}</td>"
                   f"<td class=number>{error_of(row)}</td><td class=number>{bound_of(row)}</td>"
                   f'<td><span class="verdict">{case.verdict}</span> {checked - count} of {checked}</td></tr>')
-    return ('<div class="scroll"><table class="rows"><tr><th>case</th><th>reference</th><th>fitted</th><th>for example (the '
-            f"worst missed row, else the finest)</th><th>error</th><th>accepted</th><th>rows within</th></tr>{lines}</table></div>")
+    return ('<div class="scroll"><table class="rows"><tr><th>case</th><th>reference</th><th>fitted</th><th>for example '
+            '(the '
+            "worst missed row, else the finest)</th><th>error</th><th>accepted</th><th>rows "
+            f"within</th></tr>{lines}</table></div>")
 
 
 def compute(names: list[str]) -> list[Case]:
@@ -145,7 +154,8 @@ def text_table(cases: list[Case], told: str) -> str:
     for case in cases:
         lines += [f"{case.title}: {case.verdict}", f"    {case.source}{' doi:' + case.doi if case.doi else ''}",
                   f"    given: {case.given}", f"    fitted: {case.fitted}"]
-        lines += [f"    {row.verdict:7} {row.quantity + ' [' + row.unit + ']':62} {row.settings:28} {number(row.reference):>14} "
+        lines += [f"    {row.verdict:7} {row.quantity + ' [' + row.unit + ']':62} {row.settings:28} "
+                  f"{number(row.reference):>14} "
                   f"{number(row.computed):>14} {error_of(row):>10} {bound_of(row):>8}  {row.fitted}".rstrip()
                   for row in case.rows]
         lines += [f"    note: {case.note}"] if case.note else []
@@ -177,14 +187,21 @@ def page(cases: list[Case], study_part: str) -> str:
             parts.append(f"<h2>{title}</h2><p>{words}</p>" + "".join(map(case_html, chosen)))
     missed = sum(case.verdict == MISSED for case in cases)
     return (f'<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
-            f"<title>Validation of libdrillmbd</title><style>{STYLE}{MORE_STYLE}</style><h1>Validation of libdrillmbd</h1>"
+            f"<title>Validation of libdrillmbd</title><style>{STYLE}{MORE_STYLE}</style><h1>Validation of "
+            "libdrillmbd</h1>"
             f'<p class="made">made {datetime.date.today().isoformat()} by examples/validation/run</p>'
-            f"<p>Measured and published figures beside computed ones. The error is computed over reference less one, or the "
-            f"difference where it has no percent sign. <b>{len(cases) - missed} of {len(cases)} cases are within what is "
-            f"accepted in all rows</b>; a case that misses is shown with what was looked at. What was fitted to the reference "
-            f"is named in the row; nothing else was. The two cases of the wing are blind predictions: scenes and rules were committed (343a141e, "
-            f"d64773ae) before the measured figures were read. Of the Volve well the scene and the rule of fitting were committed (2bb9b25d) "
-            f"before the figures below 2200 m were read, but that its friction factor falls from 0.257 to 0.220 with depth was "
+            "<p>Measured and published figures beside computed ones. The error is computed over reference less one, "
+            "or the "
+            f"difference where it has no percent sign. <b>{len(cases) - missed} of {len(cases)} cases are within what "
+            "is "
+            "accepted in all rows</b>; a case that misses is shown with what was looked at. What was fitted to the "
+            "reference "
+            "is named in the row; nothing else was. The two cases of the wing are blind predictions: scenes and rules "
+            "were committed (343a141e, "
+            "d64773ae) before the measured figures were read. Of the Volve well the scene and the rule of fitting "
+            "were committed (2bb9b25d) "
+            "before the figures below 2200 m were read, but that its friction factor falls from 0.257 to 0.220 with "
+            "depth was "
             f"known.</p>{overview(cases)}{''.join(parts)}{absent()}{study_part}</html>")
 
 
@@ -193,9 +210,12 @@ def study_section(program: pathlib.Path, folder: pathlib.Path) -> tuple[str, str
     printed = study.run(program, folder)
     table, assumptions, counts = study.read(printed)
     listed = "".join(f"<li>{html.escape(one)}</li>" for one in assumptions)
-    part = ('<h2 id="study">The reference study, sentence by sentence</h2><p>A numerical study of a gas-drainage rig, J. '
-            'Computational Methods in Sciences and Engineering, <a href="https://doi.org/10.3233/JCM-194119">doi:10.3233/'
-            "JCM-194119</a>; its equations and the means of two figures were lost in the text at hand. One row for each sentence "
+    part = ('<h2 id="study">The reference study, sentence by sentence</h2><p>A numerical study of a gas-drainage rig, '
+            'J. '
+            'Computational Methods in Sciences and Engineering, <a '
+            'href="https://doi.org/10.3233/JCM-194119">doi:10.3233/'
+            "JCM-194119</a>; its equations and the means of two figures were lost in the text at hand. One row for "
+            "each sentence "
             f"that can be tested, in its own quantity and axis. <b>{html.escape(counts)}.</b></p>"
             f"{study.response_picture(folder)}{study.table_html(table)}"
             f"<h3>Assumptions of this project, which the study does not give</h3><ul>{listed}</ul>")

@@ -8,11 +8,13 @@ from wells import HERE, numbers, volve_sim
 
 
 def minimum_curvature(survey):
-    """[m] north, east, depth of the stations: half the distance times (t0 + t1) times the ratio factor tan(b/2)/(b/2)."""
+    """[m] north, east, depth of the stations: half the distance times (t0 + t1) times the ratio factor
+    tan(b/2)/(b/2)."""
     depth, inclination, azimuth = survey[:, 0], np.radians(survey[:, 1]), np.radians(survey[:, 2])
     places = [np.zeros(3)]
     for k in range(1, len(survey)):
-        tangents = [np.array([math.sin(inclination[j]) * math.cos(azimuth[j]), math.sin(inclination[j]) * math.sin(azimuth[j]),
+        tangents = [np.array([math.sin(inclination[j]) * math.cos(azimuth[j]),
+                              math.sin(inclination[j]) * math.sin(azimuth[j]),
                               math.cos(inclination[j])]) for j in (k - 1, k)]
         bend = 2.0 * math.asin(min(1.0, 0.5 * float(np.linalg.norm(tangents[1] - tangents[0]))))
         factor = math.tan(0.5 * bend) / (0.5 * bend) if bend > 0.0 else 1.0
@@ -28,7 +30,8 @@ def well_path(pictures):
     got = axes_of_world * (1.0, -1.0, -1.0)  # the world is north, west, up
     rows = []
     for k in (100, 300, len(survey) - 1):
-        rows += [Row(f"{name} at {survey[k, 0]:.1f} m", "m", want[k, axis], got[k, axis], f"station {k + 1} of {len(survey)}", 1e-6, 1.0)
+        rows += [Row(f"{name} at {survey[k, 0]:.1f} m", "m", want[k, axis], got[k, axis],
+                     f"station {k + 1} of {len(survey)}", 1e-6, 1.0)
                  for axis, name in enumerate(("north", "east", "true vertical depth"))]
     rows.append(Row("largest distance of all stations", "m", 0.0, float(np.linalg.norm(got - want, axis=1).max()),
                     f"{len(survey)} stations", 1e-6, 1.0))
@@ -44,8 +47,10 @@ def well_path(pictures):
         axes[1].invert_yaxis()
     return Case("well_path", "Positions along a surveyed well by minimum curvature", "published",
                 "Sawaryn, Thorogood 2005, SPE Drilling and Completion 20, 24 (compendium of directional calculations)",
-                "10.2118/84246-PA", "survey of the Volve well: measured depth, inclination, azimuth of 511 stations", "nothing", rows,
-                "The positions of 94 stations that a test of the public program wellpathpy carries agree within 6e-6 m; that table "
+                "10.2118/84246-PA", "survey of the Volve well: measured depth, inclination, azimuth of 511 stations",
+                "nothing", rows,
+                "The positions of 94 stations that a test of the public program wellpathpy carries agree within 6e-6 "
+                "m; that table "
                 "is not part of this tree.",
                 "Equinor Open Data Licence; holder: Equinor ASA and the former Volve licence partners",
                 [picture(draw, 2, 9.5, 3.8)] if pictures else [])

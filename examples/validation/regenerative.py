@@ -1,5 +1,5 @@
-"""Axial self-excited vibration of a distributed string by the regenerative law of the bit: exponents of the motion against the roots of the
-characteristic equation."""
+"""Axial self-excited vibration of a distributed string by the regenerative law of the bit: exponents of the motion
+against the roots of the characteristic equation."""
 import cmath
 import math
 
@@ -21,14 +21,16 @@ ELEMENTS, STEP, END, FIRST, SAMPLING, ORDER = 100, 1e-3, 8.0, 3.0, 10, 8
 def balance(s, speed, tau):
     """Sum of the axial forces at the bit over its velocity, with a head that holds its speed:
 
-        Z coth(g L) + M s + K (1 - exp(-s t_n))/s = 0,   Z = E' A g/s,   g^2 = rho A s (s + k)/(E' A),   E' = E (1 + tau s),
+        Z coth(g L) + M s + K (1 - exp(-s t_n))/s = 0,   Z = E' A g/s,   g^2 = rho A s (s + k)/(E' A),   E' = E (1 + tau
+        s),
 
     with the delay t_n = 2 pi/(n Omega) of one blade spacing and K = n a zeta eps."""
     stiffness = YOUNG * AREA * (1.0 + tau * s)
     g = cmath.sqrt(DENSITY * AREA * s * (s + DAMPING) / stiffness)
     g = g if g.real > 0.0 else -g
     back = cmath.exp(-2.0 * g * LENGTH)
-    return stiffness * g / s * (1.0 + back) / (1.0 - back) + BIT_MASS * s + CUTTING / s * (1.0 - cmath.exp(-2.0 * math.pi * s / (BLADES * speed)))
+    return (stiffness * g / s * (1.0 + back) / (1.0 - back) + BIT_MASS * s
+            + CUTTING / s * (1.0 - cmath.exp(-2.0 * math.pi * s / (BLADES * speed))))
 
 
 def root_near(start, speed, tau):
@@ -62,9 +64,11 @@ def motion(rpm, tau, elements=ELEMENTS, step=STEP, end=END):
     with mbd.Model() as model:
         model.set_environment(gravity=(0.0, 0.0, 0.0), axial_damping=DAMPING * DENSITY * AREA)
         model.add_wall(diameter=0.311, direction=(1.0, 0.0, 0.0), mu_dynamic=0.0, mu_static=0.0)
-        model.add_pipes(elements, kind=mbd.PIPE_AXIAL_TORSIONAL, length=LENGTH / elements, outer_diameter=OUTER, inner_diameter=INNER,
+        model.add_pipes(elements, kind=mbd.PIPE_AXIAL_TORSIONAL, length=LENGTH / elements, outer_diameter=OUTER,
+                        inner_diameter=INNER,
                         young_modulus=YOUNG, density=DENSITY, damping_time=tau)
-        bit = model.add_bit(rock_law=mbd.ROCK_REGENERATIVE, mass=BIT_MASS, inertia=(1e9, 1e9), diameter=2.0 * RADIUS, radius=RADIUS, intrinsic_energy=ENERGY,
+        bit = model.add_bit(rock_law=mbd.ROCK_REGENERATIVE, mass=BIT_MASS, inertia=(1e9, 1e9), diameter=2.0 * RADIUS,
+                            radius=RADIUS, intrinsic_energy=ENERGY,
                             cutting_ratio=RATIO, contact_strength=0.0, wear_length=0.0, blades=BLADES, history=4096)
         model.add_drive(component=mbd.X, time_function=model.add_time_function(FEED),
                         excitation=model.add_time_function(mbd.Segment(table=[(0.0, 0.0), (0.05, 2e-4), (0.1, 0.0)])))
@@ -80,7 +84,8 @@ def motion(rpm, tau, elements=ELEMENTS, step=STEP, end=END):
 
 
 def exponents(values, spacing, order=ORDER):
-    """[1/s] s_k of values = sum of c_k exp(s_k t) by the matrix pencil (Hua, Sarkar 1990), the fastest growing first."""
+    """[1/s] s_k of values = sum of c_k exp(s_k t) by the matrix pencil (Hua, Sarkar 1990), the fastest growing
+    first."""
     count = len(values) // 2
     hankel = numpy.array([values[i:i + count] for i in range(len(values) - count)])
     shapes = numpy.linalg.svd(hankel, full_matrices=False)[2][:order].T
@@ -120,16 +125,23 @@ def regenerative(pictures):
             axes.semilogy(times, abs(weight) + 1e-3, color=color, linewidth=0.4)
             size = abs(weight[times > FIRST]).max() if want.real < 0.0 else abs(weight).max()
             anchor = FIRST if want.real < 0.0 else END
-            axes.semilogy([FIRST, END], [size * math.exp(want.real * (time - anchor)) for time in (FIRST, END)], "--", color=color, label=words)
+            axes.semilogy([FIRST, END], [size * math.exp(want.real * (time - anchor)) for time in (FIRST, END)], "--",
+                          color=color, label=words)
         axes.set(xlabel="time [s]", ylabel="weight on the bit less 19.4 or 32.4 kN [N]")
         axes.legend()
-    return Case("regenerative", "Axial self-excited vibration of a string that cuts what its last blade left", "published",
-                "Aarsnes, Aamo 2016, J. Sound and Vibration 360, 239 (PII S0022460X15007385): distributed string with the linear regenerative law; parameters: "
+    return Case("regenerative", "Axial self-excited vibration of a string that cuts what its last blade left",
+                "published",
+                "Aarsnes, Aamo 2016, J. Sound and Vibration 360, 239 (PII S0022460X15007385): distributed string with "
+                "the linear regenerative law; parameters: "
                 "file of the axial model in the public repository ulfjakob/AxialTorsionalDrillString", "",
-                "string, bit, rock, viscous damping, feed and law of the file; speeds of 60 and 100 rev/min and the damping of the material, which leaves one "
-                "root unstable or none, are chosen here and stand in equation and scene; bit of 5 kg that turns evenly (1e9 kg m2), no wear flats, no gravity",
+                "string, bit, rock, viscous damping, feed and law of the file; speeds of 60 and 100 rev/min and the "
+                "damping of the material, which leaves one "
+                "root unstable or none, are chosen here and stand in equation and scene; bit of 5 kg that turns evenly "
+                "(1e9 kg m2), no wear flats, no gravity",
                 "nothing", rows,
-                f"The errors of the growth are over |s|; over the growth itself they are {', '.join(errors)} % (with steps of 2 ms {twice} % in the "
-                "first row). The dashed lines of the picture have the slope of the roots. Roots that the authors' repository is said to give (0.1371 + 42.427i and two "
+                f"The errors of the growth are over |s|; over the growth itself they are {', '.join(errors)} % (with "
+                f"steps of 2 ms {twice} % in the "
+                "first row). The dashed lines of the picture have the slope of the roots. Roots that the authors' "
+                "repository is said to give (0.1371 + 42.427i and two "
                 "others) are not compared: the parameters that belong to them were not found.",
                 pictures=[picture(draw)] if pictures else [])

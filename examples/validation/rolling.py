@@ -58,8 +58,8 @@ def bicycle_run(speed, step, every, samples=50):
 
 
 def bicycle_roots(speed, step, interval=0.02):
-    """[1/s] eigenvalues: x(t + h) = A x(t) of the four states by least squares over all samples, each over its size so that
-    growing motions do not hide decaying ones; s = log(eig A)/h."""
+    """[1/s] eigenvalues: x(t + h) = A x(t) of the four states by least squares over all samples, each over its size so
+    that growing motions do not hide decaying ones; s = log(eig A)/h."""
     table = bicycle_run(speed, step, round(interval / step))
     scaled = table / np.abs(table).max(axis=0)
     size = np.linalg.norm(scaled[:-1], axis=1, keepdims=True)
@@ -77,7 +77,8 @@ def bicycle(pictures):
             for want, got in zip(table, found[speed]):
                 parts = [("real", want.real, got.real)] + ([("imaginary", want.imag, got.imag)] if want.imag else [])
                 for name, reference, computed in parts:
-                    rows.append(Row(f"{speed:g} m/s: {name} part of the eigenvalue near {want.real:.3g}", "1/s", reference, computed,
+                    rows.append(Row(f"{speed:g} m/s: {name} part of the eigenvalue near {want.real:.3g}", "1/s",
+                                    reference, computed,
                                     f"step {1e3 * step:g} ms", bound, max(1.0, abs(want))))
     def draw(axes):
         for speed in np.arange(0.0, 10.1, 0.5):
@@ -91,7 +92,9 @@ def bicycle(pictures):
                  title="blue: real, green: imaginary parts; circles: published, points: computed")
     return Case("bicycle", "Bicycle on knife-edge wheels that roll without slip", "published",
                 "Meijaard, Papadopoulos, Ruina, Schwab 2007, Proc. R. Soc. A 463, 1955, table 2 (fourteen digits)",
-                "10.1098/rspa.2007.1857", "the benchmark bicycle: four bodies, three hinges, two rolling wheels (table 1)",
+                "10.1098/rspa.2007.1857",
+                "the benchmark bicycle: four bodies, three hinges, two rolling wheels (table 1)",
                 "nothing", rows,
-                "The bicycle is simulated over 1 s from a lean rate of 1e-4 rad/s; its eigenvalues are those of the linear map "
+                "The bicycle is simulated over 1 s from a lean rate of 1e-4 rad/s; its eigenvalues are those of the "
+                "linear map "
                 "between samples 20 ms apart that fits the motion.", pictures=[picture(draw)] if pictures else [])

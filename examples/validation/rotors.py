@@ -8,10 +8,12 @@ from case import Case, Row, case, picture
 
 RPM = 2.0 * math.pi / 60.0
 YOUNG, SHEAR, DENSITY, DIAMETER, LENGTH = 211e9, 81.2e9, 7810.0, 0.05, 1.5
-BOOK = ("Friswell, Penny, Garvey, Lees, Dynamics of Rotating Machines, Cambridge University Press 2010, examples 5.9.1, 5.9.2 "
+BOOK = ("Friswell, Penny, Garvey, Lees, Dynamics of Rotating Machines, Cambridge University Press 2010, examples "
+        "5.9.1, 5.9.2 "
         "and 5.9.9; their figures as the tests of the public program ross (petrobras/ross) carry them")
 BOOK_DOI = "10.1017/CBO9780511780509"
-#: Name: discs (x [m], diameter [m]), bearings (x [m], stiffness along y and z [N/m]), frequencies [rad/s] at 0 and 4000 rev/min.
+#: Name: discs (x [m], diameter [m]), bearings (x [m], stiffness along y and z [N/m]), frequencies [rad/s] at 0 and 4000
+#: rev/min.
 ROTORS = {
     "two discs, isotropic bearings (5.9.1)": (((0.5, 0.28), (1.0, 0.35)), ((0.0, 1e6, 1e6), (1.5, 1e6, 1e6)), {
         0.0: (86.66, 86.66, 274.31, 274.31, 716.78, 716.78), 4000.0: (85.39, 87.80, 251.78, 294.71, 600.18, 827.08)}),
@@ -54,7 +56,8 @@ def frequencies(name, rpm, elements=4, count=6):
             disc = model.add_body(mass=mass, inertia=(about, across, across, 0.0, 0.0, 0.0), position=(x, 0.0, 0.0),
                                   velocity=spinning)
             model.add_joint(place_a=place(x), place_b=mbd.station(disc), match=1)
-        for x, along_y, along_z in bearings:  # the first also holds the shaft along its axis, which no lateral mode feels
+        # the first also holds the shaft along its axis, which no lateral mode feels
+        for x, along_y, along_z in bearings:
             model.add_joint(kind=mbd.JOINT_FREE, place_a=mbd.Place(), place_b=place(x), match=1, origin_a=(x, 0.0, 0.0),
                             stiffness=(1e8 if x == 0.0 else 0.0, along_y, along_z, 0.0, 0.0, 0.0))
         model.compile()
@@ -70,7 +73,8 @@ def rotors(pictures):
     for name, (_, _, tables) in ROTORS.items():
         for rpm, table in tables.items():
             for k, (want, got) in enumerate(zip(table, frequencies(name, rpm)), 1):
-                rows.append(Row(f"{name}, {rpm:g} rev/min: frequency {k}", "rad/s", want, got, "4 elements a piece", 1e-3))
+                rows.append(Row(f"{name}, {rpm:g} rev/min: frequency {k}", "rad/s", want, got, "4 elements a piece",
+                                1e-3))
     def draw(axes):
         speeds = np.linspace(0.0, 4500.0, 19)
         for axis, name in zip(axes, ROTORS):

@@ -1,5 +1,5 @@
-"""Stick-slip with the bit off bottom in a deviated well: the published friction along the string, in the library and by the published
-scheme."""
+"""Stick-slip with the bit off bottom in a deviated well: the published friction along the string, in the library and by
+the published scheme."""
 import math
 
 import numpy as np
@@ -14,12 +14,14 @@ BREAK_OFF, RATIO, THRESHOLD = 40e3, 0.51, 0.9  #: [N m, -, rad/s] of the paper's
 GAIN, INTEGRAL_GAIN, INERTIA = 38e3, 100e3, 2900.0  #: [N m s, N m, kg m2] of the top drive
 SURVEY = ((0.0, 300.0, 825.0, 1550.0, 1925.0, 3000.0), (0.0, 0.0, 35.0, 35.0, 60.0, 60.0))  #: [m], [degrees]
 SPEEDS = ((0.0, 2.0, 40.0, 41.0, 51.0, 52.0, 200.0), (0.0, 36.0, 36.0, 46.0, 46.0, 57.0, 57.0))  #: [s], [rev/min]
-RECORDED = {"36 rev/min": (3.0, 41.0, 16.5), "56 rev/min": (52.0, 85.0, 9.0)}  #: from, to [s] here; period [s] of the record
+#: from, to [s] here; period [s] of the record
+RECORDED = {"36 rev/min": (3.0, 41.0, 16.5), "56 rev/min": (52.0, 85.0, 9.0)}
 
 
 def string(cells, factor):
-    """Lengths [m], polar moments [m4], shear moduli [Pa] and largest static friction [N m/m] of cells: mu sin(inclination)
-    rho g A r, with mu such that all of it is the break-off torque. `factor` multiplies the polar moment of the assembly."""
+    """Lengths [m], polar moments [m4], shear moduli [Pa] and largest static friction [N m/m] of cells: mu
+    sin(inclination) rho g A r, with mu such that all of it is the break-off torque. `factor` multiplies the polar
+    moment of the assembly."""
     parts = np.array(torsion.WELL_B)
     share, outer, inner = parts[:, 0] / parts[:, 0].sum(), parts[:, 1], parts[:, 2]
     lower = max(4, round(cells * ASSEMBLY / DEPTH))
@@ -40,8 +42,8 @@ def string(cells, factor):
 
 
 def simulate(factor=1.0, end=85.0, cells=60, step=2.5e-3):
-    """Times [s] and top-drive torque [N m]. The friction along the string is that of pipes of one radius in a level hole, whose
-    masses follow the wall forces of the paper; their inertia is given by itself."""
+    """Times [s] and top-drive torque [N m]. The friction along the string is that of pipes of one radius in a level
+    hole, whose masses follow the wall forces of the paper; their inertia is given by itself."""
     length, polar, shear, friction = string(cells, factor)
     radius, table = 0.5 * torsion.PIPE[0], []
     with mbd.Model() as model:
@@ -53,9 +55,11 @@ def simulate(factor=1.0, end=85.0, cells=60, step=2.5e-3):
         chain = model.add_string()
         for k in range(cells):
             twist = shear[k] * polar[k]
-            model.add_pipes(1, string=chain, kind=mbd.PIPE_AXIAL_TORSIONAL, length=length[k], outer_diameter=torsion.PIPE[0],
+            model.add_pipes(1, string=chain, kind=mbd.PIPE_AXIAL_TORSIONAL, length=length[k],
+                            outer_diameter=torsion.PIPE[0],
                             inner_diameter=torsion.PIPE[1], section_mass=max(friction[k] / (GRAVITY * radius), 1e-3),
-                            section_inertia=(DENSITY * polar[k],) * 2, section_stiffness=(1e9, 1e8, 1e8, twist, 1e6, 1e6),
+                            section_inertia=(DENSITY * polar[k],) * 2,
+                            section_stiffness=(1e9, 1e8, 1e8, twist, 1e6, 1e6),
                             damping_time=2e-3)
         speeds = model.add_time_function(mbd.Segment(table=[(t, rpm * RPM) for t, rpm in zip(*SPEEDS)]))
         model.add_drive(component=mbd.X, time_function=model.add_time_function(0.0))
@@ -70,8 +74,8 @@ def simulate(factor=1.0, end=85.0, cells=60, step=2.5e-3):
 
 
 def upwind(factor=1.0, end=85.0, cells=500):
-    """The same by the paper's scheme: waves a = w + c e, b = w - c e of speed w and twist e per metre, upwind of first order; friction
-    takes the speed of a cell to 0 within a step if it can (its equations 11 to 24)."""
+    """The same by the paper's scheme: waves a = w + c e, b = w - c e of speed w and twist e per metre, upwind of first
+    order; friction takes the speed of a cell to 0 within a step if it can (its equations 11 to 24)."""
     length, polar, shear, friction = string(cells, factor)
     speed = np.sqrt(shear / DENSITY)
     step = 0.99 * float((length / speed).min())
@@ -111,7 +115,8 @@ def period(times, torque, start, end):
 
 
 def stored_time(cells=500):
-    """[s] until the head has put in the twist int tau/(G J) of the break-off torque tau(x), with a ramp of 2 s to 36 rev/min."""
+    """[s] until the head has put in the twist int tau/(G J) of the break-off torque tau(x), with a ramp of 2 s to 36
+    rev/min."""
     length, polar, shear, friction = string(cells, 1.0)
     gained = friction * length
     torque = np.cumsum(gained[::-1])[::-1] - 0.5 * gained
@@ -129,7 +134,8 @@ def stick_slip(pictures):
     rows += [Row(f"{name}: period, recorded", "s", recorded, period(*ours, start, end), used, 0.05)
              for name, (start, end, recorded) in RECORDED.items()]
     rows += [Row("36 rev/min: largest torque, recorded", "kN m", 38.0, settled.max() / 1e3, used, 0.05),
-             Row("36 rev/min: least torque, recorded, over 38 kN m", "kN m", 1.0, settled.min() / 1e3, used, 0.05, 38.0)]
+             Row("36 rev/min: least torque, recorded, over 38 kN m", "kN m", 1.0, settled.min() / 1e3, used, 0.05,
+                 38.0)]
     for name, (start, end, _) in RECORDED.items():
         rows.append(Row(f"{name}: period, the paper's scheme on this page", "s", period(*theirs, start, end),
                         period(*ours, start, end), used))
@@ -144,20 +150,32 @@ def stick_slip(pictures):
             for (times, torque), color, label in zip(curves, ("C1", "C0"), ("the paper's scheme", "computed")):
                 axis.plot(times, 1e-3 * torque, color=color, linewidth=1, label=label)
             for time in (14.5, 31.0):
-                axis.axvline(time, color="C3", linestyle="--", linewidth=0.8, label="peaks recorded" if time < 20 else None)
+                axis.axvline(time, color="C3", linestyle="--", linewidth=0.8, label="peaks recorded" if time < 20
+                             else None)
             axis.set(xlabel="time [s]", ylabel="torque of the top drive [kN m]", title=title)
         axes[1].legend(loc="lower right")
-    return Case("stick_slip", "Bit off bottom: stick-slip of well C at 2506 m after a connection", "measured", torsion.PAPER, torsion.DOI,
-                "survey of its figure 12b, string of well B, top drive 2900 kg m² with 38 kN m s and 100 kN m; friction "
+    return Case("stick_slip", "Bit off bottom: stick-slip of well C at 2506 m after a connection", "measured",
+                torsion.PAPER, torsion.DOI,
+                "survey of its figure 12b, string of well B, top drive 2900 kg m² with 38 kN m s and 100 kN m; "
+                "friction "
                 "by the weight across the hole alone (its equation 6), static below 0.9 rad/s, 0.51 of it above",
-                "by the paper, to this record: break-off torque 40 kN m, ratio and threshold of friction; here nothing", rows,
-                "Looked at: (1) The wall forces of the library include tension in bends, which the paper leaves out; with them, in "
-                "an earlier trial, friction acts higher up, less twist is stored, and the period at 56 rev/min was 6.1 s. (2) The "
-                "moment of break-off: waves between the rotating and the resting part free the string before it stores all the "
-                "twist that friction can hold, and how fast they fade decides when. The library converges to 14.2 s and 12.5 s at "
-                "36 rev/min (60 cells, 1.25 ms; 100 cells, 2.5 ms); with steps of 10 ms it frees the string at 11.7 s, as the paper's "
-                "scheme does (11.6 to 11.8 s with 250 to 1000 cells; its period 10 to 11 s). The paper calls its fit very sensitive. "
-                "(3) The published script multiplies the polar moment of the bottom-hole assembly by pi twice. With this heavier "
-                "assembly both solutions have the published 15 s at 36 rev/min; at 56 rev/min the true inertia is closer. (4) The "
+                "by the paper, to this record: break-off torque 40 kN m, ratio and threshold of friction; here nothing",
+                rows,
+                "Looked at: (1) The wall forces of the library include tension in bends, which the paper leaves out; "
+                "with them, in "
+                "an earlier trial, friction acts higher up, less twist is stored, and the period at 56 rev/min was 6.1 "
+                "s. (2) The "
+                "moment of break-off: waves between the rotating and the resting part free the string before it stores "
+                "all the "
+                "twist that friction can hold, and how fast they fade decides when. The library converges to 14.2 s "
+                "and 12.5 s at "
+                "36 rev/min (60 cells, 1.25 ms; 100 cells, 2.5 ms); with steps of 10 ms it frees the string at 11.7 s, "
+                "as the paper's "
+                "scheme does (11.6 to 11.8 s with 250 to 1000 cells; its period 10 to 11 s). The paper calls its fit "
+                "very sensitive. "
+                "(3) The published script multiplies the polar moment of the bottom-hole assembly by pi twice. With "
+                "this heavier "
+                "assembly both solutions have the published 15 s at 36 rev/min; at 56 rev/min the true inertia is "
+                "closer. (4) The "
                 "string's twist before the start-up is not known.",
                 pictures=[picture(draw, 2, 10.0, 3.4)] if pictures else [])

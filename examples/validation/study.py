@@ -67,7 +67,8 @@ def table_html(table: list[Sentence]) -> str:
     """The rows as a table."""
     rows = "".join(f'<tr class="{COLOURS[row.verdict]}"><td>{row.number}</td><td>{html.escape(row.where)}</td>'
                    f'<td>{html.escape(row.words)}</td><td>{html.escape(row.here)}</td>'
-                   f'<td><span class="verdict">{row.verdict}</span> {html.escape(row.reason)}</td></tr>' for row in table)
+                   f'<td><span class="verdict">{row.verdict}</span> {html.escape(row.reason)}</td></tr>'
+                   for row in table)
     return ('<div class="scroll"><table><tr><th>no.</th><th>where</th><th>the study says</th><th>here</th>'
             f"<th>verdict</th></tr>{rows}</table></div>")
 

@@ -6,7 +6,8 @@ from case import Case, Row, case, picture
 
 PAPER = "Aarsnes, Shor 2018, J. Petroleum Science and Engineering 163, 712"
 DOI = "10.1016/j.petrol.2017.11.024"
-#: Length, outer and inner diameter [m] of the pieces of the bottom-hole assemblies; shear moduli of pipe and collars [Pa].
+#: Length, outer and inner diameter [m] of the pieces of the bottom-hole assemblies; shear moduli of pipe and collars
+#: [Pa].
 WELL_A = ((19.080, .150167, .096799), (10.240, .206375, .0762), (57.240, .150167, .096799), (9.750, .206248, .06985),
           (95.4, .150167, .096799), (38.75, .222392, .095964))
 WELL_B = ((48.7, .150473, .096207), (114.8, .187322, .098912), (56.7, .20955, .071438), (38.88, .24728, .123391))
@@ -63,7 +64,8 @@ def off_bottom(pictures):
     for well, depth, measured in MEASURED:
         collars, scale = curves[well]
         period = first_periods(depth, collars, scale)[0]
-        rows += [Row(f"well {well}, {depth:.0f} m: first period, " + ("published" if well == "A" else "recorded"), "s", measured, period, "105 elements or more",
+        rows += [Row(f"well {well}, {depth:.0f} m: first period, " + ("published" if well == "A" else "recorded"), "s",
+                     measured, period, "105 elements or more",
                      0.05),
                  Row(f"well {well}, {depth:.0f} m: against transfer matrices", "s", transmission(depth, collars, scale),
                      period, "", 1e-4)]
@@ -81,10 +83,15 @@ def off_bottom(pictures):
         axes.legend()
     return Case("off_bottom", "Bit off bottom: first torsional period of two wells", "measured", PAPER, DOI,
                 "lengths, diameters and shear moduli of the paper's parameter files (preprint and files in the public "
-                "repository Open-Source-Drilling-Community/Aarsnes-and-Shor-Torsional-Model); head held, bit free, no mud, "
+                "repository Open-Source-Drilling-Community/Aarsnes-and-Shor-Torsional-Model); head held, bit free, no "
+                "mud, "
                 "tool joints left out", "nothing",
-                rows, "The paper gives the bottom-hole assembly of well B in two ways (259 m by its pieces, 230 m as a whole); "
-                "its pieces are shortened to 230 m here, which is what was looked at: with 259 m the periods are longer still, so that "
-                "the record at 2235 m is missed under both. Its published script applies the damping times dt twice, and the "
+                rows,
+                "The paper gives the bottom-hole assembly of well B in two ways (259 m by its pieces, 230 m as a "
+                "whole); "
+                "its pieces are shortened to 230 m here, which is what was looked at: with 259 m the periods are "
+                "longer still, so that "
+                "the record at 2235 m is missed under both. Its published script applies the damping times dt twice, "
+                "and the "
                 "polar moment of wells A and B has pi twice; neither enters a period of this case.",
                 pictures=[picture(draw)] if pictures else [])

@@ -57,16 +57,18 @@ def volve_sim(friction=None):
 
 
 def stiff_string(friction=None):
-    """Hook load [N], torque [N m] and sum of the wall's normal forces [N] of the string that turns off bottom at 2400 m, by the
-    equilibrium of beams on the wall."""
+    """Hook load [N], torque [N m] and sum of the wall's normal forces [N] of the string that turns off bottom at 2400
+    m, by the equilibrium of beams on the wall."""
     rig = volve_scene(friction)
     sim = rig.new_sim()
     sim.static(slip_rotation=150.0 * RPM)
-    return -sim.drive(rig.model["hoist"]).force, sim.drive(rig.model["top drive"]).force, sim.contact_total().normal_force
+    return (-sim.drive(rig.model["hoist"]).force, sim.drive(rig.model["top drive"]).force,
+            sim.contact_total().normal_force)
 
 
 def stiff_rows(soft):
-    """Torque off bottom of the stiff string beside the soft one, and beside a string without stiffness in the clearance."""
+    """Torque off bottom of the stiff string beside the soft one, and beside a string without stiffness in the
+    clearance."""
     load, friction, radius = clearance.wall_forces(volve_sim(), *clearance.pieces(HERE / "volve" / "well.toml", MUD))
     _, torque, _ = stiff_string()
     _, _, smooth = stiff_string(0.001)
@@ -77,7 +79,8 @@ def stiff_rows(soft):
                 "stiff string, friction 0.001"),
             Row("wall forces without friction, against a string without stiffness laid in the clearance", "kN",
                 load.sum() / 1e3, smooth / 1e3, "stiff string, friction 0.001", 0.005),
-            Row("torque off bottom, against the same string, friction bearing part of its load", "kN m", turned / 1e3, torque / 1e3,
+            Row("torque off bottom, against the same string, friction bearing part of its load", "kN m", turned / 1e3,
+                torque / 1e3,
                 "stiff string, 245 elements", 0.01)]
 
 
@@ -91,7 +94,8 @@ def volve(pictures):
     for depth, _, off_bottom in plan:
         rows.append(Row(f"rotating weight off bottom at {depth:g} m, commercial plan", "klbf", off_bottom,
                         one(sim, turning, depth).hook_load / KIP, "soft string", 0.01))
-    rows.append(Row("rotating weight off bottom at 2400 m, commercial plan", "klbf", plan[-1, 2], stiff_string()[0] / KIP,
+    rows.append(Row("rotating weight off bottom at 2400 m, commercial plan", "klbf", plan[-1, 2],
+                    stiff_string()[0] / KIP,
                     "stiff string", 0.01))
     rows += stiff_rows(one(sim, turning, 2400.0))
     upper, lower = measured[measured[:, 0] <= SPLIT], measured[measured[:, 0] > SPLIT]
@@ -122,17 +126,27 @@ def volve(pictures):
                 "Equinor, Volve data; medians over 25 m of 16 219 rows of the 12 1/4 in section, by way of the public "
                 "repository mauro-encinas/ROP-model", "",
                 "survey, tally, mud 1491.5 kg/m³, downhole weight and torque as measured; casing to 1405 m",
-                f"by the data from 1900 to {SPLIT:g} m: one friction factor for the whole hole ({friction:.3f}, median of "
-                f"those that explain each torque) and the weight of block and top drive ({block:.2f} t); nothing below. "
+                f"by the data from 1900 to {SPLIT:g} m: one friction factor for the whole hole ({friction:.3f}, median "
+                "of "
+                f"those that explain each torque) and the weight of block and top drive ({block:.2f} t); nothing "
+                "below. "
                 "The plan's weights: nothing.",
-                rows, "Torque is measured at the surface and above the bit; the difference is friction. The predicted torque is missed because "
+                rows,
+                "Torque is measured at the surface and above the bit; the difference is friction. The predicted torque "
+                "is missed because "
                 "the friction factor that explains it falls with depth (right), which one factor cannot follow; in the "
-                "predicted part it would be 0.220 to 0.231. The stiff string has the same weight and 9 % less torque off bottom "
-                "than the soft one. Bending stiffness is not the cause (a tenth of it changes the torque by 0.3 %), nor the mesh (four times "
-                "the elements: 0.01 %). The soft string follows the surveyed axis, which turns by 110° between stations 2 m apart "
-                "and by 103° between stations 30 m apart; a string with 50 to 90 mm of clearance does not follow the short bends. A string "
-                "without stiffness, laid in the clearance by least energy on this page, has the wall forces of the stiff one. The rest "
-                "(1.5 %) is that friction bears part of the weight: the wall presses with q/√(1 + µ²). Predictions are of the soft "
+                "predicted part it would be 0.220 to 0.231. The stiff string has the same weight and 9 % less torque "
+                "off bottom "
+                "than the soft one. Bending stiffness is not the cause (a tenth of it changes the torque by 0.3 %), "
+                "nor the mesh (four times "
+                "the elements: 0.01 %). The soft string follows the surveyed axis, which turns by 110° between "
+                "stations 2 m apart "
+                "and by 103° between stations 30 m apart; a string with 50 to 90 mm of clearance does not follow the "
+                "short bends. A string "
+                "without stiffness, laid in the clearance by least energy on this page, has the wall forces of the "
+                "stiff one. The rest "
+                "(1.5 %) is that friction bears part of the weight: the wall presses with q/√(1 + µ²). Predictions are "
+                "of the soft "
                 "string.",
                 "Equinor Open Data Licence; holder: Equinor ASA and the former Volve licence partners",
                 [picture(draw, 3, 9.5, 4.2)] if pictures else [])
@@ -150,7 +164,8 @@ def suite_sim():
     """The string hangs in a hole of 8 1/2 in."""
     model = mbd.Model()
     model.set_environment(fluid_density=SUITE_MUD)
-    model.add_wall(mbd.WallDef([(d * FOOT, math.radians(i), math.radians(a)) for d, i, a in SUITE_SURVEY], diameter=8.5 * 0.0254,
+    model.add_wall(mbd.WallDef([(d * FOOT, math.radians(i), math.radians(a)) for d, i, a in SUITE_SURVEY],
+                               diameter=8.5 * 0.0254,
                    mu_dynamic=SUITE_FRICTION, mu_static=SUITE_FRICTION))
     for count, outer, inner, mass in SUITE_STRING:
         model.add_pipes(count, length=100.0 * FOOT, outer_diameter=outer * 0.0254, inner_diameter=inner * 0.0254,
@@ -163,8 +178,8 @@ def suite_sim():
 
 def soft_string(axial, turning, points=4001):
     """Hook load and torque of the soft string by its own equations: dT/ds = w cos(inclination) +- mu N,
-    N^2 = (T dI/ds - w sin I)^2 + (T sin I dA/ds)^2 along arcs of constant curvature (minimum curvature), from the bit up
-    by the midpoint rule. `axial`: +1 pulls out, -1 goes in, 0 turns."""
+    N^2 = (T dI/ds - w sin I)^2 + (T sin I dA/ds)^2 along arcs of constant curvature (minimum curvature), from the bit
+    up by the midpoint rule. `axial`: +1 pulls out, -1 goes in, 0 turns."""
     depths = np.array([d * FOOT for d, _, _ in SUITE_SURVEY])
     tangents = np.array([(math.sin(math.radians(i)) * math.cos(math.radians(a)),
                           math.sin(math.radians(i)) * math.sin(math.radians(a)), math.cos(math.radians(i)))
@@ -212,10 +227,12 @@ def suite(pictures):
         ends[name] = force
         rows.append(Row(f"hook load, {name}, against the equations", "kN", force / 1e3, got.hook_load / 1e3, "", 1e-3))
         if turning:
-            rows.append(Row("torque, rotating, against the equations", "kN m", torque / 1e3, got.torque / 1e3, "", 1e-3))
+            rows.append(Row("torque, rotating, against the equations", "kN m", torque / 1e3, got.torque / 1e3, "",
+                            1e-3))
         else:
             printed = {"pick-up": 164.0, "slack-off": 129.0}[name]
-            rows.append(Row(f"hook load, {name}, as the suites print it", "klbf", printed, got.hook_load / KIP, "another "
+            rows.append(Row(f"hook load, {name}, as the suites print it", "klbf", printed, got.hook_load / KIP,
+                            "another "
                             "program's output"))
     def draw(axes):
         for color, (name, operation, _, _) in zip(("C0", "C1", "C2"), table):
@@ -223,14 +240,19 @@ def suite(pictures):
             axes.plot([force / 1e3 for force in profile["axial_force"]], profile["depth"], color=color,
                       label=f"{name}, computed")
             axes.plot([1e-3 * ends[name]], [0.0], "o", color=color, clip_on=False)
-        axes.set(xlabel="axial force [kN]", ylabel="depth [m]", title="lines: computed; points: hook load by the equations")
+        axes.set(xlabel="axial force [kN]", ylabel="depth [m]",
+                 title="lines: computed; points: hook load by the equations")
         axes.invert_yaxis()
         axes.legend()
     return Case("suite", 'Torque and drag of the well that validation suites call "SPE 11380 table 2"', "published",
-                "soft string of Johancsik, Friesen, Dawson 1984, J. Petroleum Technology 36, 987; the suites' printed figures "
+                "soft string of Johancsik, Friesen, Dawson 1984, J. Petroleum Technology 36, 987; the suites' printed "
+                "figures "
                 "are those of another program", "10.2118/11380-PA",
-                "10 000 ft, 5 in drill pipe, 10 lb/gal, friction 0.3, survey of six stations; weight in mud by the buoyancy factor "
+                "10 000 ft, 5 in drill pipe, 10 lb/gal, friction 0.3, survey of six stations; weight in mud by the "
+                "buoyancy factor "
                 "of steel of 7850 kg/m³", "nothing", rows,
-                "The printed 164 and 129 klbf do not follow from the soft string and are only shown: its equations, integrated "
-                "on this page by the midpoint rule at 4001 points along arcs of minimum curvature, give the figures above.",
+                "The printed 164 and 129 klbf do not follow from the soft string and are only shown: its equations, "
+                "integrated "
+                "on this page by the midpoint rule at 4001 points along arcs of minimum curvature, give the figures "
+                "above.",
                 pictures=[picture(draw)] if pictures else [])

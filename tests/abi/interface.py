@@ -11,7 +11,8 @@ import pathlib
 import re
 import sys
 
-MEMBER_TYPE = re.compile(r"(u?int(8|16|32|64)_t|char|double|dmb_\w+|(const )?(double|int32_t|void|dmb_\w+) ?\*|function)$")
+MEMBER_TYPE = re.compile(r"(u?int(8|16|32|64)_t|char|double|dmb_\w+|(const )?(double|int32_t|void|dmb_\w+) "
+                         r"?\*|function)$")
 
 
 def headers(folder):

@@ -4,8 +4,9 @@
 usage: tests/bench/higher_order.py      (numpy, scipy; 20 s; prints the table of *A higher order* in NOTEBOOK.md)
 
 Scenes C and T as linear finite elements, whose modes are integrated by each method: their exact course is a closed
-form, so the error is that of the method alone. A step of a method with s implicit stages evaluates the forces s times at
-least, each as dear as in a step of generalized-alpha with one iteration; solutions of its larger systems come on top.
+form, so the error is that of the method alone. A step of a method with s implicit stages evaluates the forces s times
+at least, each as dear as in a step of generalized-alpha with one iteration; solutions of its larger systems come on
+top.
 The ratio of the steps that reach the same error, divided by s, is therefore more than the method can save.
 
 Methods: generalized-alpha (Chung, Hulbert 1993) with radius 0.8, the library's; the same extrapolated from two courses;

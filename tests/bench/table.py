@@ -104,19 +104,23 @@ def growth(data):
                     ["errors", "exponent", "of an iteration"], lines)
 
 
-# Other open codes on scenes C and B in one run on one machine (AMD EPYC, U 47.6 to 51.8 us): one thread, process time, set-up
-# excluded, steps of 1 ms, 2 s, 100 elements, median of three turns in alternation. Error of C: tip rotation at 2 s against
-# d'Alembert; of B: against 9.3755 rad.
+# Other open codes on scenes C and B in one run on one machine (AMD EPYC, U 47.6 to 51.8 us): one thread, process time,
+# set-up excluded, steps of 1 ms, 2 s, 100 elements, median of three turns in alternation. Error of C: tip rotation at 2
+# s
+# against d'Alembert; of B: against 9.3755 rad.
 OTHERS = [
     ("C", "libdrillmbd", 14.1, "1.0e-6", "defaults, energy ledger on"),
     ("C", "MBDyn, develop 59e50fa", 186.0, "1.1e-6", "-Ofast -march=native, naive solver with colamd, modified Newton, "
      "Jacobian kept for 100 iterations, tolerance 1e-4"),
-    ("C", "Exudyn 1.11.0", 246.0, "1.1e-6", "fast module, sparse LU, modified Newton, rtol 1e-4, Tait-Bryan nodes, spectral "
+    ("C", "Exudyn 1.11.0", 246.0, "1.1e-6",
+     "fast module, sparse LU, modified Newton, rtol 1e-4, Tait-Bryan nodes, spectral "
      "radius 0.8"),
     ("B", "libdrillmbd", 54.3, "4.9e-5", "defaults, Newton tolerance 1e-8"),
-    ("B", "MBDyn, develop 59e50fa", 408.0, "3.6e-5", "as above, modified Newton 5, tolerance 1e-2, at most 10 iterations, then "
+    ("B", "MBDyn, develop 59e50fa", 408.0, "3.6e-5",
+     "as above, modified Newton 5, tolerance 1e-2, at most 10 iterations, then "
      "accepted; wall contact as a user module in C++"),
-    ("B", "Exudyn 1.11.0", 759.0, "3.9e-4", "sphere contacts, rtol = atol = 1e-3, recommended step size off; its friction law is "
+    ("B", "Exudyn 1.11.0", 759.0, "3.9e-4",
+     "sphere contacts, rtol = atol = 1e-3, recommended step size off; its friction law is "
      "linear below 0.01 m/s"),
 ]
 
@@ -125,7 +129,8 @@ def others(data):
     """Figures of other open codes beside ours of the same run, each with its error and its settings."""
     ours = {scene: us for scene, code, us, _, _ in OTHERS if code == "libdrillmbd"}
     return markdown(["scene", "code", "us a step", "over ours", "error", "settings"],
-                    [[scene, code, number(us), number(us / ours[scene]) if us != ours[scene] else "1", error_text, settings]
+                    [[scene, code, number(us), number(us / ours[scene]) if us != ours[scene] else "1", error_text,
+                      settings]
                      for scene, code, us, error_text, settings in OTHERS])
 
 
@@ -158,18 +163,21 @@ def clusters(data):
               number(row["iterations"]), number(row["error"], 2), row["bytes_per_body"]] for row in data["K"]]
     growths = [[kind.replace("_", ", "), f"{slope:.3f} +- {off:.3f}"]
                for kind in ("chain", "tree", "loops", "loops_redundant")
-               for slope, off in [exponent([row for row in chosen(data["K"], kind=kind) if float(row["elements"]) >= 10],
-                                           "elements", "us_per_step")]]
+               for slope, off
+               in [exponent([row for row in chosen(data["K"], kind=kind) if float(row["elements"]) >= 10],
+                            "elements", "us_per_step")]]
     return markdown(["bodies", "as", "rows", "redundant", "compile us", "create us", "step us", "spread", "a body", "U",
                      "to loops without", "iterations", "error", "bytes a body"], lines) + "\n\n" + \
         markdown(["from 10 bodies on", "exponent of a step over the bodies"], growths)
 
 
 def loaded(data):
-    lines = [[row["load"].replace("_", " "), row["elements_per_pipe"], number(row["error"], 2), number(row["error_2"], 2),
+    lines = [[row["load"].replace("_", " "), row["elements_per_pipe"], number(row["error"], 2),
+              number(row["error_2"], 2),
               number(row["us_per_step"]), number(row["U_per_step"]), percent(row["spread"]), number(row["iterations"])]
              for row in data["N"]]
-    return markdown(["load", "elements a pipe", "deflection", "frequencies", "us a step", "U", "spread", "iterations"], lines)
+    return markdown(["load", "elements a pipe", "deflection", "frequencies", "us a step", "U", "spread", "iterations"],
+                    lines)
 
 
 def loop(data):
@@ -264,8 +272,8 @@ def modes(data):
     growth = exponent(chosen(data["A"], scene="A"), "elements", "us_per_step")[0]
     return markdown(["elements", "us", "spread", "U", "solves"] + [f"error, pair {i}" for i in range(1, 6)], lines) + \
         f"\n\nGrowth: exponent {growth:.3f}. All 600 modes of 100 elements: " + \
-        f"{float(every['us_per_step']) / 1e6:.2g} s, largest error of the ten {number(every['error'], 2)}; as a system " + \
-        f"with damping {float(damped['us_per_step']) / 1e6:.2g} s, {number(damped['error'], 2)}."
+        f"{float(every['us_per_step']) / 1e6:.2g} s, largest error of the ten {number(every['error'], 2)}; as a " + \
+        f"system with damping {float(damped['us_per_step']) / 1e6:.2g} s, {number(damped['error'], 2)}."
 
 
 def response(data):
@@ -287,7 +295,8 @@ def buckling(data):
         rows = chosen(data["E"], scene=scene)
         if not rows:
             continue
-        lines += [[scene, row["elements"], number(row["us_per_step"]), percent(row["spread"]), number(row["U_per_step"]),
+        lines += [[scene, row["elements"], number(row["us_per_step"]), percent(row["spread"]),
+                   number(row["U_per_step"]),
                    number(row["error"], 2)] for row in rows]
         growths.append(f"{scene} {exponent(rows, 'elements', 'us_per_step')[0]:.3f}")
     return markdown(["scene", "elements", "us", "spread", "U", "error"], lines) + \

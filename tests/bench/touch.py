@@ -3,9 +3,9 @@
 
 usage: tests/bench/touch.py
 
-m d'' = m g - F, F = max(0, k d + c d') while d > 0, all for a metre of scene B's tube; fallen from a little more than the
-clearance, seven heights so that touch comes anywhere in a step; depth after 0.1 s against the closed form, root mean
-square over the clearance.
+m d'' = m g - F, F = max(0, k d + c d') while d > 0, all for a metre of scene B's tube; fallen from a little more than
+the clearance, seven heights so that touch comes anywhere in a step; depth after 0.1 s against the closed form, root
+mean square over the clearance.
 """
 import math
 

@@ -16,7 +16,8 @@ matplotlib for pictures where they are there.
 
 Structs carry the names of the C interface without dmb_ and in capitals (dmb_pipe_def is PipeDef), with the same fields,
 units and defaults: help(drillmbd.PipeDef) shows them. Functions that take one also take its fields as keywords. A call
-that fails raises Error; a status above 0 is in the `status` of the result. Everything is in SI units, angles in radians.
+that fails raises Error; a status above 0 is in the `status` of the result. Everything is in SI units, angles in
+radians.
 The library is the file that the environment variable DRILLMBD_LIBRARY names, otherwise the one beside this package,
 otherwise the one the system finds.
 """
@@ -44,8 +45,10 @@ from .state_space import Arrays, StateSpace
 from .window import Window
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace", "TorqueDrag", "Window", "output_name",
-           "output_names", "output_of", "output_quantity", "output_text", "output_unit", "motor_drive", "operation_name", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace",
+           "TorqueDrag", "Window", "output_name",
+           "output_names", "output_of", "output_quantity", "output_text", "output_unit", "motor_drive",
+           "operation_name", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

@@ -16,7 +16,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def _beside() -> str | None:
     """The library in this folder, or at the place, relative to this folder, that the file library.txt names."""
-    found = sorted(HERE.glob("libdrillmbd.so*")) + sorted(HERE.glob("libdrillmbd.dylib")) + sorted(HERE.glob("drillmbd.dll"))
+    found = (sorted(HERE.glob("libdrillmbd.so*")) + sorted(HERE.glob("libdrillmbd.dylib"))
+             + sorted(HERE.glob("drillmbd.dll")))
     note = HERE / "library.txt"
     if note.exists():
         found.append(HERE / note.read_text(encoding="utf-8").strip())
@@ -27,7 +28,8 @@ def find() -> str:
     """The file or name of the library. Raises ImportError where there is none."""
     name = os.environ.get("DRILLMBD_LIBRARY") or _beside() or ctypes.util.find_library("drillmbd")
     if not name:
-        raise ImportError("libdrillmbd was not found: not in this package, not by the system; set DRILLMBD_LIBRARY to its "
+        raise ImportError("libdrillmbd was not found: not in this package, not by the system; set DRILLMBD_LIBRARY to "
+                          "its "
                           "file (libdrillmbd.so)")
     return name
 

@@ -23,6 +23,8 @@ def need(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise ImportError(f"{name} is needed for this and was not found by {sys.executable}: pip install {name.split('.')[0]}, or "
-                          f"apt install {DEBIAN.get(name, name)} for /usr/bin/python3; `.ci/install-packages command` of the sources installs "
+        raise ImportError(f"{name} is needed for this and was not found by {sys.executable}: pip install "
+                          f"{name.split('.')[0]}, or "
+                          f"apt install {DEBIAN.get(name, name)} for /usr/bin/python3; `.ci/install-packages command` "
+                          "of the sources installs "
                           "all that the command uses") from error

@@ -37,9 +37,11 @@ class Parts:
             return found[0]
         known = ", ".join(f"'{one}'" for one in self.names) or "none"
         close = difflib.get_close_matches(name, self.names, 1)
-        bound = (f"be the name of a part of the model: {known if len(known) < 200 else known[:200] + ' ...'}" if not found else
+        bound = (f"be the name of a part of the model: {known if len(known) < 200 else known[:200] + ' ...'}"
+                 if not found else
                  f"name one part: {' and '.join(named(one) for one in found)} have this name; give the id")
-        raise WrongValue(ERR_VALUE, f"{word or 'call'}: {field} = {shown(name)}, must {bound}" + (f"; '{close[0]}'?" if close else ""))
+        raise WrongValue(ERR_VALUE, f"{word or 'call'}: {field} = {shown(name)}, must {bound}"
+                         + (f"; '{close[0]}'?" if close else ""))
 
     def first_string(self) -> Id:
         """The first string of the model; of nothing where it has none."""
@@ -100,7 +102,8 @@ def named(part: Id) -> str:
 
 def closed(kind: str) -> Error:
     """The Error of a query to a destroyed object."""
-    return Error(ERR_HANDLE, f"{kind}: handle = closed, must be open; close() or the end of its with block gave it back")
+    return Error(ERR_HANDLE,
+                 f"{kind}: handle = closed, must be open; close() or the end of its with block gave it back")
 
 
 def is_closed(handle: Any, status: int) -> bool:

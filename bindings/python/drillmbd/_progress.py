@@ -16,8 +16,8 @@ _NO_STEP = cast(c_void_p(), STEP_FN)
 
 
 class Interrupts:
-    """Ctrl-C of the command. Python raises KeyboardInterrupt wherever it is, and loses it where a package ignores exceptions, as
-    while it is imported; so each is noted here until it is dealt with."""
+    """Ctrl-C of the command. Python raises KeyboardInterrupt wherever it is, and loses it where a package ignores
+    exceptions, as while it is imported; so each is noted here until it is dealt with."""
 
     def __init__(self) -> None:
         self.pending = False
@@ -33,7 +33,8 @@ class Interrupts:
 
     @contextlib.contextmanager
     def held(self) -> Iterator[None]:
-        """The first Ctrl-C is only noted within, for a loop that ends where its data are consistent; the next one ends it at once."""
+        """The first Ctrl-C is only noted within, for a loop that ends where its data are consistent; the next one ends
+        it at once."""
         self.holding, self.torn = True, False
         try:
             yield
@@ -42,7 +43,8 @@ class Interrupts:
 
     def install(self) -> None:
         """Notes Ctrl-C from now on, where it would end the program."""
-        if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        if (threading.current_thread() is threading.main_thread()
+            and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
             signal.signal(signal.SIGINT, self)
 
     def check(self) -> None:
@@ -110,7 +112,8 @@ class Teller:
         """The status of a call that Ctrl-C ends; KeyboardInterrupt if it has. Python's own handler would raise where C
         has called, or not before the call has ended."""
         usual: Any = signal.getsignal(signal.SIGINT)
-        if threading.current_thread() is not threading.main_thread() or (usual is not signal.default_int_handler and usual is not INTERRUPTS):
+        if (threading.current_thread() is not threading.main_thread() or (usual is not signal.default_int_handler
+                                                                          and usual is not INTERRUPTS)):
             return int(function(handle, *arguments))
         INTERRUPTS.check()
         self.interrupted = False

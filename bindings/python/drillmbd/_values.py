@@ -12,7 +12,8 @@ ERR_VALUE, ERR_ID = -5, -4  # of the headers; enums.py cannot be read here by al
 
 
 def shown(value: Any) -> str:
-    """A value as a message shows it: on one line, not too long, without characters that end the field of the message."""
+    """A value as a message shows it: on one line, not too long, without characters that end the field of the
+    message."""
     text = " ".join(repr(value).split())
     text = text if len(text) <= 60 else text[:57] + "..."
     return text.replace(",", " ").replace(";", " ") if not text.startswith(("(", "{")) else text.replace(";", " ")

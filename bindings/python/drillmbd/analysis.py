@@ -13,8 +13,10 @@ from ._library import lib as _lib
 from ._parts import Parts, index_of, is_closed
 from ._optional import need, numpy
 from ._progress import Teller
-from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Excitation, Mode, ModeShape, ModesInfo,
-                       ModesOptions, Operation, Order, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
+from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Excitation, Mode,
+                       ModeShape, ModesInfo,
+                       ModesOptions, Operation, Order, PathOptions, PathPoint, PathReport, Place, ResponseOptions,
+                       SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .enums import COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OperationKind
@@ -57,8 +59,8 @@ class Analyses(AnalysisCalls):
         @mirrors("dmb_analysis_path")
         def path(self, visit: Callable[[Sim, PathPoint], Any] | None = None, options: PathOptions | None = None,
                  **fields: Any) -> PathReport:
-            """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
-            sim that is there and may be queried until it returns; True stops the path."""
+            """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point
+            with a sim that is there and may be queried until it returns; True stops the path."""
             from .sim import SimAt
             options, report = struct(PathOptions, options, fields), PathReport()
             raised: list[BaseException] = []
@@ -101,24 +103,27 @@ class Analyses(AnalysisCalls):
 
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
         @mirrors("dmb_analysis_response")
-        def response(self, excitations: Sequence[Excitation], outputs: Sequence[Any], options: ResponseOptions | None = None,
+        def response(self, excitations: Sequence[Excitation], outputs: Sequence[Any],
+                     options: ResponseOptions | None = None,
                      frequencies: Any = None, **fields: Any) -> Response:
-            """Frequency response from every Excitation to every output about the present state, at `frequencies` [Hz] or on the
-            grid that the ResponseOptions describe."""
+            """Frequency response from every Excitation to every output about the present state, at `frequencies` [Hz]
+            or on the grid that the ResponseOptions describe."""
             options = struct(ResponseOptions, options, fields)
             if frequencies is not None:
                 frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
                 options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-            given, asked, handle = row_of(Excitation, excitations, "excitations"), outputs_of(outputs, self._parts, "response"), c_void_p()
-            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked, len(outputs),
+            given, asked, handle = (row_of(Excitation, excitations, "excitations"),
+                                    outputs_of(outputs, self._parts, "response"), c_void_p())
+            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked,
+                                   len(outputs),
                                                    byref(handle)))
             return Response(handle, [one.amplitude for one in given], [output_text(one, self._handle) for one in asked])
 
         @mirrors("dmb_analysis_stepped_sine")
         def stepped_sine(self, frequency: float, outputs: Sequence[Any], options: Any = None,
                          **fields: Any) -> tuple[Any, Any]:
-            """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each output, mean and
-            then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
+            """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each output, mean
+            and then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
             options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
             report: Any = STRUCTS["dmb_stepped_sine_report"]()
             asked, width = outputs_of(outputs, self._parts, "stepped sine"), 1 + options.harmonics
@@ -133,7 +138,8 @@ class Analyses(AnalysisCalls):
 
         @mirrors("dmb_analysis_modes")
         def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:
-            """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
+            """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of
+            Mode."""
             options, handle = struct(ModesOptions, options, fields), c_void_p()
             self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
             return Modes(handle, self)
@@ -141,9 +147,10 @@ class Analyses(AnalysisCalls):
         @mirrors("dmb_analysis_speeds")
         def speeds(self, orders: Sequence[Order], outputs: Sequence[Any], limits: Sequence[float], room: int = 64,
                    options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
-            """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
-            Order excites, and limits are the amplitudes allowed of the outputs. `status` and `report` of the bands state where the
-            result lacks excitation, damping or range (NOTE_INCOMPLETE)."""
+            """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the
+            grid: each
+            Order excites, and limits are the amplitudes allowed of the outputs. `status` and `report` of the bands
+            state where the result lacks excitation, damping or range (NOTE_INCOMPLETE)."""
             options = struct(SpeedsOptions, options, fields)
             room = whole(room, "speeds", "room", 1, 2 ** 20)
             allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
@@ -152,12 +159,14 @@ class Analyses(AnalysisCalls):
             severity = (c_double * options.points)()
             found = SpeedBands()
             options.report = pointer(found.report)
-            found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
+            found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked,
+                                                  allowed,
                                                  len(outputs), bands, byref(count), severity))
             options.report = None
             found.extend(list(bands)[:count.value])
             width = (options.speed_high - options.speed_low) / max(options.points - 1, 1)
-            found.speeds, found.severity = [options.speed_low + i * width for i in range(options.points)], list(severity)
+            found.speeds, found.severity = [options.speed_low + i * width
+                                            for i in range(options.points)], list(severity)
             return found, found.severity
 
         @mirrors("dmb_analysis_torque_drag")
@@ -175,7 +184,8 @@ class Analyses(AnalysisCalls):
                 options.depths = (c_double * len(below))(*below)
             count = max(1, options.depth_count) * len(asked)
             rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
-            status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options), (Operation * len(asked))(*asked),
+            status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options),
+                                            (Operation * len(asked))(*asked),
                                             len(asked), rows))
             options.depths = None
             return TorqueDrag(asked, [list(rows[i:i + len(asked)]) for i in range(0, count, len(asked))], status)
@@ -183,12 +193,14 @@ class Analyses(AnalysisCalls):
         @mirrors("dmb_analysis_torque_drag_profile")
         def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
                                 options: TorqueDragOptions | None = None, **fields: Any) -> Columns:
-            """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
-            torque [N m], wall force per metre [N/m], as lists by name."""
+            """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial
+            force [N], torque [N m], wall force per metre [N/m], as lists by name."""
             options = struct(TorqueDragOptions, options, fields)
-            given, stations = as_operation(operation), whole(stations, "torque and drag profile", "stations", 2, 2 ** 20)
+            given, stations = (as_operation(operation), whole(stations, "torque and drag profile", "stations", 2,
+                                                              2 ** 20))
             values = [(c_double * stations)() for _ in range(4)]
-            self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
+            self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations,
+                                                              *values))
             found = Columns(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
             found.units = dict(zip(found, ("m", "N", "N m", "N/m")))
             return found
@@ -199,12 +211,14 @@ class Analyses(AnalysisCalls):
         [kg/m3], surge and swab of the closed string that moves at a trip speed [m/s]."""
         found: Hydraulics = Hydraulics.blank()
         self._check(_lib.dmb_analysis_hydraulics(self._handle, real(depth, "hydraulics", "depth", unit="m"),
-                                                 real(trip_speed, "hydraulics", "trip_speed", unit="m/s"), byref(found)))
+                                                 real(trip_speed, "hydraulics", "trip_speed", unit="m/s"),
+                                                 byref(found)))
         return found
 
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
         @mirrors("dmb_analysis_friction_factor")
-        def friction_factor(self, operation: Operation | int, hook_load: float | None = None, torque: float | None = None,
+        def friction_factor(self, operation: Operation | int, hook_load: float | None = None,
+                            torque: float | None = None,
                             options: TorqueDragOptions | None = None, **fields: Any) -> float:
             """The friction coefficient [-] that explains a hook load [N] or a torque [N m] measured at the rig."""
             if (hook_load is None) == (torque is None):
@@ -213,7 +227,8 @@ class Analyses(AnalysisCalls):
             given, found = as_operation(operation), c_double()
             measured = MEASURED_HOOK_LOAD if torque is None else MEASURED_TORQUE
             self._check(_lib.dmb_analysis_friction_factor(self._handle, byref(options), byref(given), measured,
-                                                          real(hook_load if torque is None else torque, "friction factor",
+                                                          real(hook_load if torque is None else torque,
+                                                               "friction factor",
                                                                "measured value", "N or N m"), byref(found)))
             return found.value
 
@@ -239,7 +254,8 @@ def as_operation(one: Any) -> Operation:
 
 
 def usual_operation(kind: int | str, **fields: Any) -> Operation:
-    """The Operation OPERATION_..., or of a name as "pick-up", at usual speeds, with further fields such as weight_on_bit
+    """The Operation OPERATION_..., or of a name as "pick-up", at usual speeds, with further fields such as
+    weight_on_bit
     [N]."""
     operation = Operation()
     if isinstance(kind, str):
@@ -285,8 +301,9 @@ class TorqueDrag:
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------
 class Response(Handle):
-    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, excitations and outputs; `amplitudes`:
-    of the excitations, as they were given; `names` of the outputs with their units, "vibration_z of string main pipe 3 at 0.5 [m]"."""
+    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, excitations and outputs;
+    `amplitudes`: of the excitations, as they were given; `names` of the outputs with their units, "vibration_z of
+    string main pipe 3 at 0.5 [m]"."""
     _kind = "response"
 
     def __init__(self, handle: c_void_p, amplitudes: list[float], names: list[str]) -> None:
@@ -303,8 +320,8 @@ class Response(Handle):
         return numpy.array(values) if numpy is not None else list(values)
 
     def transfer(self, excitation: int = COMBINED, output: int = 0) -> Any:
-        """The output per unit of the excitation, or for all excitations with their amplitudes and phases (COMBINED): complex
-        numbers, one for each frequency; shape (points)."""
+        """The output per unit of the excitation, or for all excitations with their amplitudes and phases (COMBINED):
+        complex numbers, one for each frequency; shape (points)."""
         values = (c_double * (2 * self.shape[0]))()
         if excitation != COMBINED:
             excitation = index_of("response", "excitation", excitation, self.shape[1])
@@ -316,7 +333,8 @@ class Response(Handle):
 
     def _asdict(self) -> dict[str, Any]:
         """Frequencies [Hz], and the combined outputs by number, complex."""
-        return {"frequency": self.frequencies, **{f"output {i}": self.transfer(COMBINED, i) for i in range(self.shape[2])}}
+        return {"frequency": self.frequencies, **{f"output {i}": self.transfer(COMBINED, i)
+                                                  for i in range(self.shape[2])}}
 
     def frame(self, names: Sequence[str] | None = None) -> Any:
         """The combined outputs as a pandas frame of complex numbers over the frequency; names of the outputs with their
@@ -425,13 +443,15 @@ class Modes(Shaped):
         """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
         kinetic, strain = c_double(), c_double()
         index = index_of("modes", "index", index, len(self))
-        self._sure(_lib.dmb_modes_part(self._handle, index, as_id(part, self._parts), pipe, byref(kinetic), byref(strain)))
+        self._sure(_lib.dmb_modes_part(self._handle, index, as_id(part, self._parts), pipe, byref(kinetic),
+                                       byref(strain)))
         return kinetic.value, strain.value
 
     def frame(self) -> Any:
         """A pandas frame, one row for each mode: frequency, damping and shares of motion."""
         rows = [(mode.frequency, mode.damping, bool(mode.rigid), *mode.share, *mode.effective_mass) for mode in self]
-        columns = ["frequency [Hz]", "damping [-]", "rigid", "share axial [-]", "share torsional [-]", "share lateral [-]",
+        columns = ["frequency [Hz]", "damping [-]", "rigid", "share axial [-]", "share torsional [-]",
+                   "share lateral [-]",
                    "effective mass x [kg]", "effective mass y [kg]", "effective mass z [kg]"]
         return need("pandas").DataFrame(rows, columns=columns)
 

@@ -41,7 +41,8 @@ def wall_friction(scene: Scene, first: float, last: float) -> float:
 
 
 def _scaled(scene: Scene, factor: float) -> Scene | None:
-    """The scene with all friction coefficients of the wall times a factor; None if no section has its own, or if it cannot be written."""
+    """The scene with all friction coefficients of the wall times a factor; None if no section has its own, or if it
+    cannot be written."""
     try:
         text = saves(scene, False)
     except CannotSave:
@@ -59,7 +60,8 @@ def _scaled(scene: Scene, factor: float) -> Scene | None:
     return loads(text, changes=changes)
 
 
-def _families(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: Settings, depths: list[float]) -> list[Family]:
+def _families(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: Settings,
+              depths: list[float]) -> list[Family]:
     operations = [settings.operations[kind] for kind in KINDS]
     frictions, base, found = settings.frictions, settings.more.get("friction"), list[Family]()
     if not frictions and base is None:
@@ -77,8 +79,10 @@ def _families(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settin
         mean = wall_friction(scene, 0.0, depths[-1]) if base is None else base
         frictions = [round(factor * mean, 12) for factor in FACTORS] if mean > 0.0 else [0.0]
         out.say(f"{curves.name}, broomstick: friction coefficients {', '.join(f'{one:.4g}' for one in frictions)}"
-                   + (f" (0.5, 1 and 1.5 times that of {'the wall' if base is None else '--friction'})" if mean > 0.0 else ""))
-    return [Family(f"friction {one:.4g}", one, sim.torque_drag(operations, depths, string=curves.string, friction=one).rows) for one in frictions]
+                   + (f" (0.5, 1 and 1.5 times that of {'the wall' if base is None else '--friction'})" if mean > 0.0
+                      else ""))
+    return [Family(f"friction {one:.4g}", one, sim.torque_drag(operations, depths, string=curves.string,
+                                                               friction=one).rows) for one in frictions]
 
 
 def write(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: Settings) -> None:
@@ -86,7 +90,8 @@ def write(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: 
     depths = [float(one) for one in curves.found.column("depth")]
     families = _families(scene, sim, out, curves, settings, depths)
     words = [operation_name(kind) for kind in KINDS]
-    columns = {(word, one.label): [curves.hook_load(row[number]) for row in one.rows] for number, word in enumerate(words) for one in families}
+    columns = {(word, one.label): [curves.hook_load(row[number]) for row in one.rows]
+               for number, word in enumerate(words) for one in families}
     torques = {one.label: [float(row[2].torque) for row in one.rows] for one in families}
     for (word, label), column in columns.items():
         locked = next((depth for depth, value in zip(depths, column) if not math.isfinite(value)), None)
@@ -96,9 +101,13 @@ def write(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: 
     out.summary.setdefault("broomstick", {})[curves.name] = {
         "depth_m": depths, "friction": None if by_factor else [one.value for one in families],
         "factor": [one.value for one in families] if by_factor else None,
-        **{f"{word}_hook_load_N": [columns[word, one.label] for one in families] for word in words}, "rotate_torque_N_m": list(torques.values())}
-    heads = ["depth [m]", *(f"{word}, {label}: hook load [N]" for word, label in columns), *(f"rotate, {label}: torque [N m]" for label in torques)]
+        **{f"{word}_hook_load_N": [columns[word, one.label] for one in families] for word in words},
+        "rotate_torque_N_m": list(torques.values())}
+    heads = ["depth [m]", *(f"{word}, {label}: hook load [N]" for word, label in columns),
+             *(f"rotate, {label}: torque [N m]" for label in torques)]
     out.table(f"broomstick_{file_name(curves.name)}.csv", heads, zip(depths, *columns.values(), *torques.values()))
-    title = curves.name + (f", with {out.units.scaled(curves.block_weight, 'N')} of block and top drive" if curves.block_weight else "")
+    title = curves.name + (f", with {out.units.scaled(curves.block_weight, 'N')} of block and top drive"
+                           if curves.block_weight else "")
     out.picture(f"broomstick_{file_name(curves.name)}.png", lambda plots: plots.broomstick(
-        depths, columns, torques, title, {word: (one.depths, one.values) for word, one in settings.series.items()}, out.units))
+        depths, columns, torques, title, {word: (one.depths, one.values) for word, one in settings.series.items()},
+        out.units))

@@ -1,4 +1,5 @@
-"""Critical factors of buckling of the whole scene, and the thrusts at which a soft string begins to buckle and locks up, by depth."""
+"""Critical factors of buckling of the whole scene, and the thrusts at which a soft string begins to buckle and locks
+up, by depth."""
 from __future__ import annotations
 
 import math
@@ -55,11 +56,13 @@ def _factors(scene: Scene, sim: Sim, out: CommandOutput) -> None:
     with _found(sim, values, out) as found:
         confirmed = found.info.confirmed
         for index, factor in enumerate(found.factors):
-            out.say(f"critical factor {factor:.6g}: {_loads(values, factor)}; " + ("confirmed" if index < confirmed else "extrapolated, not confirmed"))
+            out.say(f"critical factor {factor:.6g}: {_loads(values, factor)}; " + ("confirmed" if index < confirmed
+                                                                                   else "extrapolated, not confirmed"))
         if not found.factors:
             out.say("no critical factor was found in the range of [buckling] factor_max")
         if math.isfinite(found.info.sinusoidal_share):
-            out.say(f"for comparison: at the last state that was followed, {100.0 * found.info.sinusoidal_share:.3g} % of the sinusoidal buckling load of a "
+            out.say(f"for comparison: at the last state that was followed, {100.0 * found.info.sinusoidal_share:.3g} % "
+                    "of the sinusoidal buckling load of a "
                        "pipe on the wall")
         out.summary["buckling"] = {"factors": found.factors, "confirmed": confirmed, "end": ENDS[found.info.end]}
         out.table("buckling.csv", ["factor", "confirmed"],
@@ -80,11 +83,14 @@ def _found(sim: Sim, values: dict[str, Any], out: CommandOutput) -> Buckling:
         present: dict[str, Any] = {**values, "follow": 0}
         found = sim.buckling(**present)
         reached = re.search(r"stable up to factor = [-+.\de]+", error.message)
-        out.note_text("buckling: the equilibria " + (f"are {reached[0]} and " if reached else "") + "could not be followed to the critical factor; "
-                         "factors are extrapolated from the static state. Use more elements or a softer wall to confirm them")
+        out.note_text("buckling: the equilibria " + (f"are {reached[0]} and " if reached else "")
+                      + "could not be followed to the critical factor; "
+                         "factors are extrapolated from the static state. Use more elements or a softer wall to "
+                         "confirm them")
         return found
     if found.status > 0:
-        out.note_text("buckling: " + out.units.sentence(sim.message or status_text(found.status)).removeprefix("buckling: "))
+        out.note_text("buckling: " + out.units.sentence(sim.message
+                                                        or status_text(found.status)).removeprefix("buckling: "))
     return found
 
 
@@ -92,13 +98,15 @@ def _loads(values: dict[str, Any], factor: float) -> str:
     scale = int(values.get("scale", enums.SCALE_LOADS))
     if scale == enums.SCALE_PART:
         return "times the part of [buckling]"
-    return f"{'weight and all loads' if scale == enums.SCALE_ALL else 'all loads but weight'} at {1.0 + factor:.4g} times the present ones"
+    return (f"{'weight and all loads' if scale == enums.SCALE_ALL else 'all loads but weight'} at {1.0 + factor:.4g} "
+            "times the present ones")
 
 
 def reason_of(scene: Scene, sim: Sim, error: Error) -> str:
     """Why factors could not be computed, without names of functions of the library."""
     if error.status == enums.Status.ERR_SINGULAR and re.search("holds it", error.message):
-        return ("no drive holds the string's angle about its axis, so its stiffness is singular. Hold it by a drive with component = \"rx\" and "
+        return ("no drive holds the string's angle about its axis, so its stiffness is singular. Hold it by a drive "
+                "with component = \"rx\" and "
                 "kind = \"motion\"" + _hanging(scene, sim))
     text = re.sub(r"^(buckling|static): ", "", error.message)
     text = re.sub(r"(call|with) dmb_analysis_static first", "choose other values of [static]", text)
@@ -107,8 +115,10 @@ def reason_of(scene: Scene, sim: Sim, error: Error) -> str:
 
 def _hanging(scene: Scene, sim: Sim) -> str:
     try:
-        lowest = min(float(sim.profile(scene.names[name], pipes).axial_force.min()) for name, pipes in scene.pipes.items())
-        largest = max(float(sim.profile(scene.names[name], pipes).axial_force.max()) for name, pipes in scene.pipes.items())
+        lowest = min(float(sim.profile(scene.names[name], pipes).axial_force.min())
+                     for name, pipes in scene.pipes.items())
+        largest = max(float(sim.profile(scene.names[name], pipes).axial_force.max())
+                      for name, pipes in scene.pipes.items())
     except Error:
         return ""
     if largest > 0.0 and lowest > -1e-3 * largest:
@@ -118,11 +128,13 @@ def _hanging(scene: Scene, sim: Sim) -> str:
 
 # ---- Thrusts of the soft string --------------------------------------------------------------------------------------
 def _row(sim: Sim, string: Any, depth: float, weight: float) -> TorqueDragRow:
-    return sim.torque_drag([usual_operation(enums.OPERATION_SLACK_OFF, weight_on_bit=weight)], [depth], string=string).rows[0][0]
+    return sim.torque_drag([usual_operation(enums.OPERATION_SLACK_OFF, weight_on_bit=weight)], [depth],
+                           string=string).rows[0][0]
 
 
 def first_weight(of: Callable[[float], bool]) -> float:
-    """[N] The lowest load of the bit for which a rising condition holds, by doubling and halving; infinite if there is none."""
+    """[N] The lowest load of the bit for which a rising condition holds, by doubling and halving; infinite if there is
+    none."""
     low, high = 0.0, 1e3
     if of(low):
         return 0.0
@@ -144,24 +156,31 @@ def _thrusts(scene: Scene, sim: Sim, out: CommandOutput, name: str) -> bool:
     try:
         depths = depths_of(sim, string, str(DEPTHS))
     except Error as error:
-        out.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: {out.units.sentence(error.message)}")
+        out.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: "
+                f"{out.units.sentence(error.message)}")
         return False
     rows = []
     for depth in depths:
         if math.isnan(_row(sim, string, depth, 1e3).helical_share):
-            out.say(f"{name}, thrust of buckling: not assessed, because at {out.units.text(depth, 'm')} a compressed part is not pressed to the wall")
+            out.say(f"{name}, thrust of buckling: not assessed, because at {out.units.text(depth, 'm')} a compressed "
+                    "part is not pressed to the wall")
             return False
-        weights = [first_weight(lambda weight: _beyond(_row(sim, string, depth, weight), field)) for field in ("sinusoidal_share", "helical_share", "")]
-        rows.append([depth, *(value for weight in weights[:2] for value in (-_row(sim, string, depth, weight).hook_load, weight)), weights[2]])
+        weights = [first_weight(lambda weight: _beyond(_row(sim, string, depth, weight), field))
+                   for field in ("sinusoidal_share", "helical_share", "")]
+        rows.append([depth, *(value for weight in weights[:2] for value in (-_row(sim, string, depth, weight).hook_load,
+                                                                            weight)), weights[2]])
     heads = ["depth [m]", "sinusoidal buckling: thrust at the rig [N]", "sinusoidal buckling: weight on bit [N]",
-             "helical buckling: thrust at the rig [N]", "helical buckling: weight on bit [N]", "lock-up: weight on bit [N]"]
+             "helical buckling: thrust at the rig [N]", "helical buckling: weight on bit [N]",
+             "lock-up: weight on bit [N]"]
     out.table(f"buckling_thrust_{file_name(name)}.csv", heads, rows)
     out.summary.setdefault("buckling_thrust", {})[name] = {
-        "depth_m": depths, "sinusoidal_thrust_N": [row[1] for row in rows], "helical_thrust_N": [row[3] for row in rows],
+        "depth_m": depths, "sinusoidal_thrust_N": [row[1] for row in rows],
+        "helical_thrust_N": [row[3] for row in rows],
         "lock_up_weight_on_bit_N": [row[5] for row in rows]}
     units = out.units
     for row in rows:
-        out.say(f"{name} at {units.text(row[0], 'm')}, pushed without rotation: sinusoidal buckling {_thrust(row[1], units)}, "
+        out.say(f"{name} at {units.text(row[0], 'm')}, pushed without rotation: sinusoidal buckling "
+                f"{_thrust(row[1], units)}, "
                    f"helical {_thrust(row[3], units)}, locks up at {units.text(row[5] / 1e3, 'kN')} on the bit")
     return True
 
@@ -171,4 +190,5 @@ def _beyond(row: TorqueDragRow, field: str) -> bool:
 
 
 def _thrust(value: float, units: Units) -> str:
-    return f"from a thrust of {units.text(value / 1e3, 'kN')}" if value >= 0.0 else f"from a hook load below {units.text(-value / 1e3, 'kN')}"
+    return f"from a thrust of {units.text(value / 1e3, 'kN')}" if value >= 0.0 else \
+        f"from a hook load below {units.text(-value / 1e3, 'kN')}"

@@ -1,5 +1,5 @@
-"""Errors: a status and a message with its part, field, value and bound. Those of the library come as data (dmb_last_error); the
-package's own messages have one form, "part: field = value, must bound; advice"."""
+"""Errors: a status and a message with its part, field, value and bound. Those of the library come as data
+(dmb_last_error); the package's own messages have one form, "part: field = value, must bound; advice"."""
 from __future__ import annotations
 
 import math
@@ -32,7 +32,8 @@ MIRRORED: dict[str, str] = {}
 
 
 def in_python(text: str) -> str:
-    """A message of the library with the names of Python: compile() for dmb_model_compile, STEADY_AT_REST for that of C."""
+    """A message of the library with the names of Python: compile() for dmb_model_compile, STEADY_AT_REST for that of
+    C."""
     def name(match: re.Match[str]) -> str:
         found = match[0]
         return found[4:] if found.startswith("DMB_") else MIRRORED[found] + "()" if found in MIRRORED else found
@@ -49,9 +50,9 @@ def _number(text: str) -> float | str:
 class Error(Exception):
     """A call that was refused or failed, with nothing changed.
 
-    status, name ("DMB_ERR_VALUE") and message give the reason. Where the failure has them, else None: part ("joint 1 (crank)"),
-    field ("axis_a"), component (of a field that is an array), value (a float where it is a number; its unit is in the message),
-    low and high (the permitted range), bound ("be of length > 0") and advice (the remedy)."""
+    status, name ("DMB_ERR_VALUE") and message give the reason. Where the failure has them, else None: part ("joint 1
+    (crank)"), field ("axis_a"), component (of a field that is an array), value (a float where it is a number; its unit
+    is in the message), low and high (the permitted range), bound ("be of length > 0") and advice (the remedy)."""
 
     def __init__(self, status: int, message: str = "") -> None:
         try:
@@ -84,7 +85,8 @@ class Error(Exception):
         self.part, self.field, given, self.bound, self.advice = (
             text.decode() or None for text in (last.part, last.field, last.given, last.bound, last.advice))
         self.component = None if last.component == NONE else int(last.component)
-        self.value, self.low, self.high = (None if math.isnan(one) else one for one in (last.value, last.low, last.high))
+        self.value, self.low, self.high = (None if math.isnan(one) else one
+                                           for one in (last.value, last.low, last.high))
         if self.value is None and given is not None:
             self.value = _number(given)
         return True
@@ -93,7 +95,8 @@ class Error(Exception):
         """The parts of a message of this package."""
         found = _MESSAGE.match(self.message)
         if found:
-            self.part, self.field, self.bound, self.advice = found["part"], found["field"], found["bound"], found["advice"]
+            self.part, self.field, self.bound, self.advice = (found["part"], found["field"], found["bound"],
+                                                              found["advice"])
             self.value = _number(found["value"])
 
     def __reduce__(self) -> Any:
@@ -101,7 +104,8 @@ class Error(Exception):
 
 
 class WrongType(Error, TypeError):
-    """A value of the wrong type, found in Python: a text or an array where one number belongs, a part where a place does."""
+    """A value of the wrong type, found in Python: a text or an array where one number belongs, a part where a place
+    does."""
 
 
 class WrongValue(Error, ValueError):

@@ -9,8 +9,8 @@ from ._structs import SpeedBand, SpeedsReport
 
 
 class SpeedBands(List[SpeedBand]):
-    """Bands of rotary speed to avoid, with the status of the call and its SpeedsReport. `speeds` [rad/s] and `severity` [-]
-    are those of the grid, shape (points) each."""
+    """Bands of rotary speed to avoid, with the status of the call and its SpeedsReport. `speeds` [rad/s] and `severity`
+    [-] are those of the grid, shape (points) each."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -34,12 +34,15 @@ class Columns(Dict[str, List[float]]):
 
     def frame(self) -> Any:
         """The lists as a pandas frame with units in the names of its columns."""
-        return need("pandas").DataFrame({f"{name.replace('_', ' ')} [{self.units[name]}]": one for name, one in self.items()})
+        return need("pandas").DataFrame({f"{name.replace('_', ' ')} [{self.units[name]}]": one
+                                         for name, one in self.items()})
 
 
 def frame_of(cls: Any, rows: Sequence[Any], index: dict[str, Sequence[Any]] | None = None) -> Any:
     """A pandas frame of structs, a row each, units in the names of its columns; columns of `index` come first."""
-    names = [name for name, kind in cls._fields_ if name != "struct_size" and not name.rstrip("0123456789").endswith("reserved")
+    names = [name for name, kind in cls._fields_ if name != "struct_size"
+             and not name.rstrip("0123456789").endswith("reserved")
              and not hasattr(kind, "_length_") and not hasattr(kind, "contents")]
-    table = {f"{name.replace('_', ' ')} [{cls.field_docs[name][0] or '-'}]": [getattr(row, name) for row in rows] for name in names}
+    table = {f"{name.replace('_', ' ')} [{cls.field_docs[name][0] or '-'}]": [getattr(row, name) for row in rows]
+             for name in names}
     return need("pandas").DataFrame({**(index or {}), **table})

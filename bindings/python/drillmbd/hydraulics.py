@@ -20,7 +20,8 @@ def write(sim: Sim, out: CommandOutput, name: str, depths: Sequence[float], trip
     columns = {key_of(key, unit): [finite(getattr(row, key)) for row in rows] for key, unit in FIELDS.items()}
     results: dict[str, Any] = {"trip_speed_m_s": trip_speed, **columns}
     out.summary.setdefault("hydraulics", {})[name] = results
-    out.table(f"hydraulics_{file_name(name)}.csv", [f"{key.replace('_', ' ')} [{unit or '-'}]" for key, unit in FIELDS.items()],
+    out.table(f"hydraulics_{file_name(name)}.csv", [f"{key.replace('_', ' ')} [{unit or '-'}]"
+                                                    for key, unit in FIELDS.items()],
                  [[getattr(row, key) for key in FIELDS] for row in rows])
     out.say(f"{name}, mud at {out.units.text(rows[-1].depth, 'm')}: {_sentence(rows[-1], out)}")
 

@@ -68,8 +68,9 @@ class Inputs(MutableMapping[str, float]):
 
     @mirrors("dmb_sim_replay_inputs")
     def replay(self, records: Any, next_record: int = 0) -> int:
-        """Sets the values of the records (of InputLog.take) from number next_record on up to the present time; returns the
-        number of the first that is still to come. Called before each step, it gives the states of the recorded run."""
+        """Sets the values of the records (of InputLog.take) from number next_record on up to the present time; returns
+        the number of the first that is still to come. Called before each step, it gives the states of the recorded
+        run."""
         array = (InputRecord * len(records))(*records)
         place = c_uint32(next_record)
         self._sim._check(_lib.dmb_sim_replay_inputs(self._sim._handle, array, len(records), byref(place)))

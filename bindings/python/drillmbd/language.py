@@ -1,6 +1,7 @@
-"""Sentences in other languages. English is the source: a phrase is an English template with the values that stand in it, and is a str of the
-English sentence. A catalogue, language_zh.toml, has the template of another language by the English one; a test finds missing, unused
-and different entries."""
+"""Sentences in other languages. English is the source: a phrase is an English template with the values that stand in
+it, and is a str of the
+English sentence. A catalogue, language_zh.toml, has the template of another language by the English one; a test finds
+missing, unused and different entries."""
 from __future__ import annotations
 
 import functools
@@ -37,7 +38,8 @@ class Listed(str):
 
 
 def without_functions(message: str) -> str:
-    """A message of the library with commands in place of functions of C, and values of scene files in place of its constants."""
+    """A message of the library with commands in place of functions of C, and values of scene files in place of its
+    constants."""
     text = re.sub(r"\bdmb_(?:analysis_)?(\w+)", lambda found: found[1].replace("_", "-"), message)
     return re.sub(rf"\bDMB_(?:{CHOICES})_(\w+)", lambda found: '"' + found[1].lower().replace("_", "-") + '"', text)
 
@@ -103,7 +105,8 @@ class Language:
         for pattern, template in self.patterns:
             match = pattern.fullmatch(text)
             if match:
-                return template.format(**{key: self._fitting(value) or value for key, value in match.groupdict().items()})
+                return template.format(**{key: self._fitting(value) or value
+                                          for key, value in match.groupdict().items()})
         parts = [self._fitting(part) for part in text.split("; ")] if "; " in text else [None]
         return self.phrases["; "].join(part for part in parts if part) if all(parts) else None
 
@@ -116,7 +119,8 @@ class Language:
         padded, wanted = "", 0
         for i, cell in enumerate(re.split(r"(\s{2,})", line)):
             wanted += len(cell)
-            padded += " " * max(2, wanted - _width(padded)) if i % 2 else cell if re.fullmatch(r"[-+\d.e]*", cell) else self(Foreign(cell))
+            padded += (" " * max(2, wanted - _width(padded)) if i % 2 else cell if re.fullmatch(r"[-+\d.e]*", cell)
+                       else self(Foreign(cell)))
         return padded
 
     def all(self, value: Any) -> Any:
@@ -142,11 +146,13 @@ def _catalogue(name: str) -> tuple[dict[str, str], list[tuple[re.Pattern[str], s
     import tomllib
     path = pathlib.Path(__file__).with_name(f"language_{name}.toml")
     content = tomllib.loads(path.read_text(encoding="utf-8"))
-    exact_first = sorted(content["messages"].items(), key=lambda one: -len(FIELD.sub("", one[0])))  # "{a} elements" fits many
+    # "{a} elements" fits many
+    exact_first = sorted(content["messages"].items(), key=lambda one: -len(FIELD.sub("", one[0])))
     return content["phrases"], [(pattern_of(key), text) for key, text in exact_first]
 
 
 def pattern_of(template: str) -> re.Pattern[str]:
     """A message of the library with fields {a}, {b} instead of its numbers and names."""
     pieces = FIELD.split(template)
-    return re.compile("".join(re.escape(piece) if i % 2 == 0 else f"(?P<{piece}>.+?)" for i, piece in enumerate(pieces)))
+    return re.compile("".join(re.escape(piece) if i % 2 == 0 else f"(?P<{piece}>.+?)"
+                              for i, piece in enumerate(pieces)))

@@ -1,5 +1,5 @@
-"""A scene as the live page takes it: the calls that describe its model with the fields of their structs by name, the inputs that a reader
-moves, and the outputs that are drawn with their limits."""
+"""A scene as the live page takes it: the calls that describe its model with the fields of their structs by name, the
+inputs that a reader moves, and the outputs that are drawn with their limits."""
 from __future__ import annotations
 
 import hashlib
@@ -21,16 +21,21 @@ from .scene.segments import by_numbers
 
 Call = tuple[str, tuple[Any, ...]]
 #: Calls of a description that a record holds; others are functions of Python.
-CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_stabiliser", "add_joint", "add_coupling", "add_drive", "add_load", "add_spring", "add_stuck",
-         "add_input", "add_event", "add_pipes", "add_time_function", "add_hole_sections", "set_environment", "set_name", "compile"}
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_stabiliser", "add_joint", "add_coupling", "add_drive",
+         "add_load", "add_spring", "add_stuck",
+         "add_input", "add_event", "add_pipes", "add_time_function", "add_hole_sections", "set_environment", "set_name",
+         "compile"}
 #: Arrays that their structs point to: field, the field with its length, numbers in a row.
-ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)), "add_wall": (("survey", "survey_count", 3),),
+ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
+          "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
 RPM = 30.0 / math.pi
 #: Factor and unit that the page shows, by the unit in SI.
-SHOWN = {"rad/s": (RPM, "rpm"), "m/s": (1e3, "mm/s"), "N": (1e-3, "kN"), "N m": (1e-3, "kN m"), "m3/s": (6e4, "l/min"), "-": (1.0, ""),
+SHOWN = {"rad/s": (RPM, "rpm"), "m/s": (1e3, "mm/s"), "N": (1e-3, "kN"), "N m": (1e-3, "kN m"), "m3/s": (6e4, "l/min"),
+         "-": (1.0, ""),
          "kg/m3": (1.0, "kg/m³")}
-#: [unit of the set point/s] of prescribed motions: how fast a slider's value is reached. A rig turns up in seconds, not at once.
+#: [unit of the set point/s] of prescribed motions: how fast a slider's value is reached. A rig turns up in seconds, not
+#: at once.
 RATE = {enums.X: 0.05, enums.RX: 10.0}
 USUAL = {enums.X: 0.05, enums.RX: 25.0, "bit load": 20e3}  #: upper bound where the scene describes nothing else than 0
 
@@ -48,7 +53,8 @@ class Described:
 
     def drives(self) -> list[tuple[int, DriveDef]]:
         """Index of the id, and definition."""
-        return [(index, DriveDef(**arguments[0])) for index, (call, arguments) in self.parts.items() if call == "add_drive"]
+        return [(index, DriveDef(**arguments[0])) for index, (call, arguments) in self.parts.items()
+                if call == "add_drive"]
 
     def range_of(self, time_function: Id) -> tuple[float, float]:
         """Least and largest sum of the values that the segments of a time function name."""
@@ -57,7 +63,8 @@ class Described:
         for one in bounded(self.parts[time_function.index][1], known) if time_function else ():
             kind, h0, h1 = one.get("kind", 0), one.get("h0", 0.0), one.get("h1", 0.0)
             values = [value for _, value in one.get("table", ())] or (
-                [h0] if kind == enums.SEGMENT_CONSTANT else [h0 - abs(h1), h0 + abs(h1)] if kind == enums.SEGMENT_HARMONIC else [h0, h1])
+                [h0] if kind == enums.SEGMENT_CONSTANT else [h0 - abs(h1), h0 + abs(h1)]
+                if kind == enums.SEGMENT_HARMONIC else [h0, h1])
             if by_numbers(one):
                 low, high = low + min(values), high + max(values)
         return low, high
@@ -70,8 +77,8 @@ def _bounds(low: float, high: float, usual: float) -> tuple[float, float]:
 
 
 def with_inputs(scene: Scene) -> list[Call]:
-    """The calls of the model, with an input for each set point of a drive along or about the hole, load of a bit, stuck place, and the
-    friction of the wall, where the scene has none."""
+    """The calls of the model, with an input for each set point of a drive along or about the hole, load of a bit, stuck
+    place, and the friction of the wall, where the scene has none."""
     parts = Described(scene.model)
     taken = {(info.target, info.part.index) for info in scene.model.inputs().values()}
     names = set(scene.model.inputs())
@@ -95,7 +102,8 @@ def with_inputs(scene: Scene) -> list[Call]:
             add("bit load", target=enums.TARGET_BIT_LOAD, part=part, low=low, high=high)
         elif call == "add_stuck" and (enums.TARGET_STUCK, index) not in taken:
             add("stuck", target=enums.TARGET_STUCK, part=part, low=0.0, high=1.0)
-    if any(call == "add_wall" for call, _ in parts.parts.values()) and not any(target == enums.TARGET_FRICTION for target, _ in taken):
+    if (any(call == "add_wall" for call, _ in parts.parts.values()) and not any(target == enums.TARGET_FRICTION
+                                                                                for target, _ in taken)):
         add("friction", target=enums.TARGET_FRICTION, low=0.0, high=3.0)
     calls = list(scene.model.calls)
     at = next(number for number, (name, _) in enumerate(calls) if name == "compile")
@@ -116,11 +124,14 @@ def _drive_input(add: Any, parts: Described, drive: Any, part: Id) -> None:
     add(word, part=part, low=low, high=high, **rate)
 
 
-TARGETS: dict[int, tuple[float, float]] = {enums.TARGET_FRICTION: (0.0, 3.0), enums.TARGET_FLUID_DENSITY: (0.0, 2000.0), enums.TARGET_STUCK: (0.0, 1.0),
-           enums.TARGET_LOAD_FACTOR: (0.0, 2.0), enums.TARGET_BIT_LOAD: (0.0, 20e3), enums.TARGET_FLOW_RATE: (0.0, 0.02)}
+TARGETS: dict[int, tuple[float, float]] = {enums.TARGET_FRICTION: (0.0, 3.0), enums.TARGET_FLUID_DENSITY: (0.0, 2000.0),
+                                           enums.TARGET_STUCK: (0.0, 1.0),
+           enums.TARGET_LOAD_FACTOR: (0.0, 2.0), enums.TARGET_BIT_LOAD: (0.0, 20e3),
+                                           enums.TARGET_FLOW_RATE: (0.0, 0.02)}
 
 
-TITLES = {"rotation": phrase("Rotation"), "feed": phrase("Feed"), "torque": phrase("Torque"), "thrust": phrase("Thrust"), "bit load": phrase("Bit load"),
+TITLES = {"rotation": phrase("Rotation"), "feed": phrase("Feed"), "torque": phrase("Torque"),
+          "thrust": phrase("Thrust"), "bit load": phrase("Bit load"),
           "friction": phrase("Friction of the wall"), "stuck": phrase("Stuck (1), free (0)")}
 
 
@@ -142,7 +153,8 @@ def _controls(model: Model) -> list[dict[str, Any]]:
         low, high = (low if info.low <= -1e29 else info.low), (high if info.high >= 1e29 else info.high)
         if info.target in (enums.TARGET_FRICTION, enums.TARGET_LOAD_FACTOR):
             word = phrase("times")
-        found.append({"name": name, "title": title_of(name), "unit": word, "factor": factor, "low": low * factor, "high": high * factor,
+        found.append({"name": name, "title": title_of(name), "unit": word, "factor": factor, "low": low * factor,
+                      "high": high * factor,
                       "whole": info.target == enums.TARGET_STUCK})
     return found
 
@@ -158,7 +170,8 @@ def _traces(scene: Scene, parts: Described, generation: int) -> list[dict[str, A
     for index, drive in parts.drives():
         if parts.parts.get(drive.part.index, ("",))[0] != "add_joint":
             drives.setdefault(drive.component, Id(index, generation))
-    string = next((Id(index, generation) for index, (call, _) in parts.parts.items() if call in ("add_string", "add_pipes")), None)
+    string = next((Id(index, generation) for index, (call, _) in parts.parts.items()
+                   if call in ("add_string", "add_pipes")), None)
     limits = scene.limits
 
     def line(quantity: int, part: Id | None = None) -> dict[str, Any]:
@@ -171,17 +184,25 @@ def _traces(scene: Scene, parts: Described, generation: int) -> list[dict[str, A
     torque, thrust = rig(enums.RX, enums.OUTPUT_RIG_TORQUE), rig(enums.X, enums.OUTPUT_RIG_FORCE)
     found = []
     if torque:
-        found.append({"title": phrase("Torque at the rig"), "unit": "kN m", "factor": 1e-3, "least": 0.1, "lines": [torque],
-                      "limits": [_limit(sign * limits["torque"], phrase("limit {value:g} kN m", value=limits["torque"] / 1e3)) for sign in (1.0, -1.0) if "torque" in limits]})
+        found.append({"title": phrase("Torque at the rig"), "unit": "kN m", "factor": 1e-3, "least": 0.1,
+                      "lines": [torque],
+                      "limits": [_limit(sign * limits["torque"],
+                                        phrase("limit {value:g} kN m", value=limits["torque"] / 1e3))
+                                 for sign in (1.0, -1.0) if "torque" in limits]})
     if thrust:
-        found.append({"title": phrase("Thrust at the rig"), "unit": "kN", "factor": 1e-3 if enums.X in drives else -1e-3, "least": 1.0, "lines": [thrust], "limits": [
-            *([_limit(limits["push"], phrase("push limit {value:g} kN", value=limits["push"] / 1e3))] if "push" in limits else []),
-            *([_limit(-limits["pull"], phrase("pull limit {value:g} kN", value=limits["pull"] / 1e3))] if "pull" in limits else [])]})
+        found.append({"title": phrase("Thrust at the rig"), "unit": "kN", "factor": 1e-3 if enums.X in drives
+                      else -1e-3, "least": 1.0, "lines": [thrust], "limits": [
+            *([_limit(limits["push"], phrase("push limit {value:g} kN", value=limits["push"] / 1e3))]
+              if "push" in limits else []),
+            *([_limit(-limits["pull"], phrase("pull limit {value:g} kN", value=limits["pull"] / 1e3))]
+              if "pull" in limits else [])]})
     if string:
-        found.append({"title": phrase("Bit speed (dashed: rig)"), "unit": "rpm", "factor": RPM, "least": 10.0, "limits": [],
+        found.append({"title": phrase("Bit speed (dashed: rig)"), "unit": "rpm", "factor": RPM, "least": 10.0,
+                      "limits": [],
                       "lines": [line(enums.OUTPUT_BIT_SPEED, string), line(enums.OUTPUT_ROTARY_SPEED, string)]})
     if any(call == "add_wall" for call, _ in parts.parts.values()):
-        found.append({"title": phrase("Contact, whole string"), "unit": "kN", "factor": 1e-3, "least": 1.0, "limits": [], "lines": [line(enums.OUTPUT_CONTACTS_NORMAL_FORCE)]})
+        found.append({"title": phrase("Contact, whole string"), "unit": "kN", "factor": 1e-3, "least": 1.0,
+                      "limits": [], "lines": [line(enums.OUTPUT_CONTACTS_NORMAL_FORCE)]})
     return found
 
 
@@ -189,7 +210,8 @@ def _traces(scene: Scene, parts: Described, generation: int) -> list[dict[str, A
 def plain(value: Any, call: str = "") -> Any:
     """A struct as a dictionary of its fields, numbers that JSON lacks as texts."""
     if isinstance(value, float):
-        return value if math.isfinite(value) else "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+        return (value if math.isfinite(value) else "NaN" if math.isnan(value) else "Infinity" if value > 0
+                else "-Infinity")
     if isinstance(value, bytes):
         return value.decode()
     if hasattr(value, "tolist"):  # a view of numpy
@@ -219,7 +241,8 @@ def _recorded(calls: list[Call]) -> list[list[Any]]:
     for name, given in calls:
         count, arguments = given[:1] if name == "add_pipes" else (), given[1:] if name == "add_pipes" else given
         if name not in CALLS:
-            raise Usage(f"live page refused: the scene has a part made by {name}, a function of Python, which stays in Python; leave the part out")
+            raise Usage(f"live page refused: the scene has a part made by {name}, a function of Python, which stays in "
+                        "Python; leave the part out")
         if name == "set_name":
             found.append([name, [{"part": plain(arguments[0]), "name": arguments[1]}]])
             continue
@@ -229,7 +252,8 @@ def _recorded(calls: list[Call]) -> list[list[Any]]:
             structs.append(plain(made, name))
             function = one.get("function") if isinstance(one, dict) else None
             if function is not None:
-                raise Usage("live page refused: a time function is a function of Python, which stays in Python; give it as a table")
+                raise Usage("live page refused: a time function is a function of Python, which stays in Python; give "
+                            "it as a table")
         found.append([name, structs, *count])
     return found
 
@@ -238,7 +262,8 @@ def model_of(scene: Scene, diameter: float | None = None) -> Model:
     """The model that the page makes: of the scene with inputs, and with another diameter of the hole [m]."""
     calls = with_inputs(scene)
     if diameter is not None:
-        calls = [(name, tuple(_widened(name, one, diameter, _diameter(calls)) for one in arguments)) for name, arguments in calls]
+        calls = [(name, tuple(_widened(name, one, diameter, _diameter(calls)) for one in arguments))
+                 for name, arguments in calls]
     return remake(Model, calls)
 
 
@@ -261,13 +286,15 @@ def _diameter(calls: list[Call]) -> float | None:
     return float(_DEFINITIONS["add_wall"](**wall).diameter)
 
 
-WIDTHS = {"add_pipes": ("outer_diameter", "joint_outer_diameter"), "add_bit": ("diameter",), "add_stabiliser": ("outer_diameter",),
+WIDTHS = {"add_pipes": ("outer_diameter", "joint_outer_diameter"), "add_bit": ("diameter",),
+          "add_stabiliser": ("outer_diameter",),
           "add_body": ("contact_diameter",)}
 
 
 def _widest(calls: list[Call]) -> float:
     """[m] of all that meets the wall."""
-    return max((getattr(_DEFINITIONS[name](**arguments[-1]), key) for name, arguments in calls for key in WIDTHS.get(name, ())), default=0.0)
+    return max((getattr(_DEFINITIONS[name](**arguments[-1]), key) for name, arguments in calls
+                for key in WIDTHS.get(name, ())), default=0.0)
 
 
 def record_of(scene: Scene, file: str) -> dict[str, Any]:

@@ -28,8 +28,8 @@ def _runs(calls: list[Call], first: int) -> dict[int, list[dict[str, float]]]:
 
 
 def _joined(calls: list[Call], pipes: dict[int, int]) -> set[tuple[int, int]]:
-    """Pairs of strings of which the second begins at the far end of the first: by a joint, or by a body with a joint to each. pipes: number
-    of pipes by the index of a string."""
+    """Pairs of strings of which the second begins at the far end of the first: by a joint, or by a body with a joint to
+    each. pipes: number of pipes by the index of a string."""
     ends: dict[int, set[int]] = {}    # strings that end at a part
     begins: dict[int, set[int]] = {}  # strings that begin at a part
     for name, arguments in calls:
@@ -54,7 +54,8 @@ def _in_order(pipes: dict[int, int], joined: set[tuple[int, int]]) -> list[tuple
     left = list(pipes)
     while left:
         placed = [index for index, _ in found]
-        index = next((one for one in left if all(b != one or a in placed for a, b in joined)), left[0])  # of a ring of strings any
+        # of a ring of strings any
+        index = next((one for one in left if all(b != one or a in placed for a, b in joined)), left[0])
         before = [number for number, one in enumerate(placed) if (one, index) in joined]
         found.append((index, before[0] if before else None))
         left.remove(index)
@@ -62,13 +63,15 @@ def _in_order(pipes: dict[int, int], joined: set[tuple[int, int]]) -> list[tuple
 
 
 def strings_of(scene: Scene, first: Id) -> tuple[list[dict[str, Any]], int]:
-    """Strings with pipes, each behind the one that it continues; and the number of that with the bit, or of the last one."""
+    """Strings with pipes, each behind the one that it continues; and the number of that with the bit, or of the last
+    one."""
     calls = list(scene.model.calls)
     counts = {scene.names[name].index: count for name, count in scene.pipes.items() if count}
     runs, joined, total = _runs(calls, first.index), _joined(calls, counts), sum(counts.values())
     found: list[dict[str, Any]] = []
     for index, before in _in_order(counts, joined):
-        found.append({"index": index, "stations": max(2, min(MOST_STATIONS * counts[index] // total, 2 * counts[index]) + 1),
+        found.append({"index": index,
+                      "stations": max(2, min(MOST_STATIONS * counts[index] // total, 2 * counts[index]) + 1),
                       "radii": runs[index], "length": runs[index][-1]["end"], "continues": before})
     bits = [_made(BitDef, arguments[0] if arguments else {}).string for name, arguments in calls if name == "add_bit"]
     wanted = bits[0].index if bits and bits[0] else first.index if bits else found[-1]["index"] if found else 0

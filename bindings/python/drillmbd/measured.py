@@ -1,5 +1,5 @@
-"""Hook loads and torques measured at the rig: read from a table, compared with the soft string, and the friction coefficient that fits
-them by operation, with its confidence interval."""
+"""Hook loads and torques measured at the rig: read from a table, compared with the soft string, and the friction
+coefficient that fits them by operation, with its confidence interval."""
 from __future__ import annotations
 
 import math
@@ -21,15 +21,20 @@ from .unit_systems import Units
 
 COLUMNS = (
     Column("depth", "m", SURVEY_COLUMNS[0].names + ("bit depth", "bit md", "depth of bit", "depth bit")),
-    Column("pick-up", "N", ("pick up", "pickup", "pick up load", "pick up weight", "pick up hook load", "hook load pick up", "pu", "puw", "pu weight",
+    Column("pick-up", "N", ("pick up", "pickup", "pick up load", "pick up weight", "pick up hook load",
+                            "hook load pick up", "pu", "puw", "pu weight",
                             "p u", "trip out", "pull out", "poh", "pooh", "上提"), "", False, True),
-    Column("slack-off", "N", ("slack off", "slackoff", "slack off load", "slack off weight", "slack off hook load", "hook load slack off", "so",
+    Column("slack-off", "N", ("slack off", "slackoff", "slack off load", "slack off weight", "slack off hook load",
+                              "hook load slack off", "so",
                               "sow", "so weight", "s o", "trip in", "run in", "rih", "下放"), "", False, True),
-    Column("rotate", "N", ("rotate", "rotating", "rotate load", "rotating weight", "rotate hook load", "hook load rotate", "rotating off bottom",
+    Column("rotate", "N", ("rotate", "rotating", "rotate load", "rotating weight", "rotate hook load",
+                           "hook load rotate", "rotating off bottom",
                            "rot", "rotw", "rob", "free rotating", "free rotating weight", "空转"), "", False, True),
-    Column("torque", "N m", ("torque", "torque rotate", "rotate torque", "rotating torque", "off bottom torque", "surface torque",
+    Column("torque", "N m", ("torque", "torque rotate", "rotate torque", "rotating torque", "off bottom torque",
+                             "surface torque",
                              "rotary torque", "tq", "tor", "trq", "扭矩"), "", False, True),
-    Column("hook load", "N", ("hook load", "hookload", "hkld", "hkl", "hook load measured", "measured hook load", "大钩载荷"), "", False, True),
+    Column("hook load", "N", ("hook load", "hookload", "hkld", "hkl", "hook load measured", "measured hook load",
+                              "大钩载荷"), "", False, True),
     Column("operation", "", ("operation", "op", "mode", "activity", "工况"), "", False))
 ADVICE = "give the heads in the file, as \"depth [m], pick_up [kN], slack_off [kN], rotate [kN], torque [kN m]\""
 KINDS = {"pick-up": enums.OPERATION_PICK_UP, "slack-off": enums.OPERATION_SLACK_OFF, "rotate": enums.OPERATION_ROTATE,
@@ -82,7 +87,8 @@ def _take(line: int, cells: dict[str, Any], series: dict[str, Series], faults: l
         text = cells["operation"].text if "operation" in cells else ""
         word = text.strip().casefold().replace("_", "-").replace(" ", "-")
         if word not in ("pick-up", "slack-off", "rotate"):
-            faults.append(f"line {line}: hook load of " + (f"operation \"{text}\"" if text else "no operation") + "; a column \"operation\" must "
+            faults.append(f"line {line}: hook load of " + (f"operation \"{text}\"" if text else "no operation")
+                          + "; a column \"operation\" must "
                           "say pick-up, slack-off or rotate, or each of them has a column of its own")
             return
         known[word] = load
@@ -117,7 +123,8 @@ class Model:
         for depth, value in zip(self.series.depths, self.series.values):
             options = TorqueDragOptions(string=self.string, depth_count=1)
             options.depths = (c_double * 1)(depth)
-            given: dict[str, Any] = {"torque": value} if self.series.word == "torque" else {"hook_load": value - self.block_weight}
+            given: dict[str, Any] = ({"torque": value} if self.series.word == "torque"
+                                     else {"hook_load": value - self.block_weight})
             try:
                 found.append(self.sim.friction_factor(self.operation, **given, options=options))
             except Error:
@@ -126,16 +133,20 @@ class Model:
 
 
 def fit(model: Model, start: float) -> Fit:
-    """Least squares over all depths by Gauss-Newton corrections; the interval from the scatter about the fit, of Student's distribution."""
+    """Least squares over all depths by Gauss-Newton corrections; the interval from the scatter about the fit, of
+    Student's distribution."""
     values = model.series.values
     if model.series.word == "rotate":
         computed = model.at(start)
-        return Fit(None, "the hook load while rotating depends little on friction", computed=computed, scatter=_scatter(computed, values))
+        return Fit(None, "the hook load while rotating depends little on friction", computed=computed,
+                   scatter=_scatter(computed, values))
     by_point = model.inverse()
     known = sorted(one for one in by_point if math.isfinite(one))
     if not known:
         computed = model.at(start)
-        return Fit(None, "no coefficient between 0 and 10 explains any of the measurements; examine the block weight, the sign and the unit",
+        return Fit(None,
+                   "no coefficient between 0 and 10 explains any of the measurements; examine the block weight, the "
+                   "sign and the unit",
                    computed=computed, by_point=by_point, scatter=_scatter(computed, values))
     friction, slope = _least_squares(model, known[len(known) // 2])
     computed = model.at(friction)
@@ -174,7 +185,8 @@ def _scatter(computed: list[float], values: list[float]) -> float:
 
 
 # ---- Results ---------------------------------------------------------------------------------------------------------
-def compare(sim: Sim, string: Any, name: str, out: CommandOutput, series: dict[str, Series], operations: list[Operation],
+def compare(sim: Sim, string: Any, name: str, out: CommandOutput, series: dict[str, Series],
+            operations: list[Operation],
             block_weight: float, friction: float) -> None:
     """A line for each series, a table of all measurements, and the summary."""
     rows: list[list[Any]] = []
@@ -189,7 +201,8 @@ def compare(sim: Sim, string: Any, name: str, out: CommandOutput, series: dict[s
         rows += [[depth, label(word), value * factor, computed * factor, point]
                  for depth, value, computed, point in zip(one.depths, one.values, found.computed, points)]
     out.summary.setdefault("measured", {})[name] = result
-    out.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
+    out.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]",
+                                                  "computed with the fit [N or N m]",
                                                     "friction of this measurement [-]"], rows)
 
 
@@ -202,11 +215,15 @@ def _text(series: Series, found: Fit, friction: float, units: Units) -> str:
     unit, scale = ("N m", 1.0) if series.word == "torque" else ("kN", 1e-3)
     if found.friction is None:
         mean = sum(a - b for a, b in zip(series.values, found.computed)) / len(series.values)
-        return (f"friction not assessed, because {found.reason}; measured minus computed {units.text(scale * mean, unit)} on average at friction "
+        return (f"friction not assessed, because {found.reason}; measured minus computed "
+                f"{units.text(scale * mean, unit)} on average at friction "
                 f"{friction:.3g}")
     failed = sum(not math.isfinite(one) for one in found.by_point)
     interval = ("confidence not assessed, because one measurement has no scatter" if found.half_width is None else
-                f"95 % confidence {max(0.0, found.friction - found.half_width):.3g} .. {found.friction + found.half_width:.3g}")
+                f"95 % confidence {max(0.0, found.friction - found.half_width):.3g} .. "
+                f"{found.friction + found.half_width:.3g}")
     known = [one for one in found.by_point if math.isfinite(one)]
-    return (f"friction {found.friction:.4g} ({interval}) from {len(series.values)} measurements, scatter {units.text(scale * found.scatter, unit, '.3g')}, "
-            f"each alone {min(known):.3g} .. {max(known):.3g}" + (f"; {failed} are explained by no coefficient" if failed else ""))
+    return (f"friction {found.friction:.4g} ({interval}) from {len(series.values)} measurements, scatter "
+            f"{units.text(scale * found.scatter, unit, '.3g')}, "
+            f"each alone {min(known):.3g} .. {max(known):.3g}" + (f"; {failed} are explained by no coefficient"
+                                                                  if failed else ""))

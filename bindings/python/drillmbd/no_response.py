@@ -1,5 +1,6 @@
-"""Outputs that nothing moves but rounding. A linear response of 1e-16 m is no amplitude: the excitation does not reach that output. It is
-held against the motion of the strings in all directions, or against the other components of the same section."""
+"""Outputs that nothing moves but rounding. A linear response of 1e-16 m is no amplitude: the excitation does not reach
+that output. It is held against the motion of the strings in all directions, or against the other components of the same
+section."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -17,11 +18,14 @@ SURE = 1e-6       #: of its limit, above which a severity is not looked at again
 RADIUS = 0.05     #: [m] by which rotations count as displacements, and moments as forces: about that of a pipe
 FORCES = -1       #: the kind of section forces; 0, 1, 2: vibrations, their rates and accelerations
 
-NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
+NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for "
+                         "example \"0.5 mm\"), or "
                          "excite the string by a drive, load or force")
-NO_RESPONSE = phrase("the excitation moves the string, but not this output; amplitudes below 1e-9 of the largest are rounding. Components are "
+NO_RESPONSE = phrase("the excitation moves the string, but not this output; amplitudes below 1e-9 of the largest are "
+                     "rounding. Components are "
                      "north, west and up, those of the pipe in vibration_body")
-UNREACHED = phrase("the orders of [speeds] excite none of its outputs; amplitudes below 1e-9 of the largest are rounding. Components are north, west "
+UNREACHED = phrase("the orders of [speeds] excite none of its outputs; amplitudes below 1e-9 of the largest are "
+                   "rounding. Components are north, west "
                    "and up, those of the pipe in vibration_body")
 
 
@@ -34,8 +38,8 @@ def _kind(out: Output) -> int | None:
 
 
 def _probes(scene: Scene, out: Output) -> list[Output]:
-    """All components of both ends and the middle of each string, of motions of the same kind, else displacements; of section forces those of
-    the same place too."""
+    """All components of both ends and the middle of each string, of motions of the same kind, else displacements; of
+    section forces those of the same place too."""
     base = enums.OUTPUT_VIBRATION + 20 * max(_kind(out) or 0, 0)
     places = [station(scene.names[name], pipe, fraction) for name, pipes in scene.pipes.items()
               for pipe, fraction in ((0, 0.0), (pipes // 2, 0.5), (pipes - 1, 1.0))]
@@ -69,7 +73,8 @@ def _judged(own: float, out: Output, around: list[tuple[Output, float]]) -> Phra
     return NO_RESPONSE if max([own, *(size for _, size in around)]) > 0.0 else NOTHING_EXCITES
 
 
-def of_response(sim: Sim, scene: Scene, inputs: Sequence[Excitation], out: Output, options: dict[str, Any], frequency: float) -> Phrase | None:
+def of_response(sim: Sim, scene: Scene, inputs: Sequence[Excitation], out: Output, options: dict[str, Any],
+                frequency: float) -> Phrase | None:
     """Why the response of an output at a frequency [Hz] is none; None where it is one."""
     listed = [out, *_probes(scene, out)]
     with sim.response(inputs, listed, frequencies=[frequency], **with_grid(options)) as found:
@@ -87,12 +92,14 @@ def of_speeds(sim: Sim, scene: Scene, options: dict[str, Any]) -> list[Phrase | 
         return largest(listed, [1.0 / _weight(one) for one in listed])
 
     reasons: list[Phrase | None] = []
-    for out, limit in zip(scene.response_outputs("speeds"), [one["limit"] for one in scene.analyses["speeds"]["output"]]):
+    for out, limit in zip(scene.response_outputs("speeds"),
+                          [one["limit"] for one in scene.analyses["speeds"]["output"]]):
         if largest([out], [limit]) > SURE:
             reasons.append(None)
             continue
         around = _probes(scene, out)
-        reasons.append(_judged(amplitude([out]), out, [(around[-1], amplitude([one for one in around if _kind(one) == _kind(around[-1])]))]))
+        reasons.append(_judged(amplitude([out]), out,
+                               [(around[-1], amplitude([one for one in around if _kind(one) == _kind(around[-1])]))]))
     return reasons
 
 

@@ -78,7 +78,8 @@ def polar_moduli(scene: Scene) -> list[float]:
     found = []
     for name, arguments in scene.model.calls:
         if name == "add_pipes":
-            pipe: Any = _structs.PipeDef(**{key: value for key, value in arguments[1].items() if key in ("outer_diameter", "inner_diameter")})
+            pipe: Any = _structs.PipeDef(**{key: value for key, value in arguments[1].items()
+                                            if key in ("outer_diameter", "inner_diameter")})
             found.append(math.pi / 16.0 * (pipe.outer_diameter ** 4 - pipe.inner_diameter ** 4) / pipe.outer_diameter)
     return found
 

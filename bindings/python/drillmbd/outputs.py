@@ -55,8 +55,8 @@ def output_quantity(name: str | int) -> int:
 
 
 def output_of(given: Any, parts: Parts | None = None, word: str = "output") -> Output:
-    """The Output: one, a pair (place, "bit_speed") or (place, OUTPUT_...), or a name or number without a place. The place may be a part or its
-    name."""
+    """The Output: one, a pair (place, "bit_speed") or (place, OUTPUT_...), or a name or number without a place. The
+    place may be a part or its name."""
     if isinstance(given, Output):
         output_name(given.quantity)
         return given
@@ -67,7 +67,8 @@ def output_of(given: Any, parts: Parts | None = None, word: str = "output") -> O
     place, quantity = given
     if isinstance(quantity, (Place, Id)):
         refuse_type(word, "output", given, 'have the place first: (place, "bit_speed")')
-    return Output(station(Id(), place) if isinstance(place, int) else as_place(place, parts), output_quantity(quantity), 0)
+    return Output(station(Id(), place) if isinstance(place, int) else as_place(place, parts), output_quantity(quantity),
+                  0)
 
 
 def outputs_of(outputs: Any, parts: Parts | None = None, word: str = "call") -> Any:

@@ -81,7 +81,8 @@ class Profile:
 
     @property
     def force(self) -> Any:
-        """[N, N m] axial (effective, tension > 0), shear y, z, torque, bending moment y, z; NaN on rigid pipes, (n, 6)"""
+        """[N, N m] axial (effective, tension > 0), shear y, z, torque, bending moment y, z; NaN on rigid pipes, (n,
+        6)"""
         return self._columns("effective_force", "shear_y", "shear_z", "torque", "moment_y", "moment_z")
 
     @property

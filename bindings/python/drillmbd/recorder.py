@@ -43,8 +43,8 @@ def _interval(value: Any) -> float:
 
 class Recorder:
     """A table of rows (time, outputs...). outputs are pairs (place, "bit_speed") or (place, OUTPUT_...), or triples
-    with a name for the column; a part, or its name, means its reference point, None (or "bit_speed" alone) for an output without a
-    place. Of a window
+    with a name for the column; a part, or its name, means its reference point, None (or "bit_speed" alone) for an
+    output without a place. Of a window
     place is the number of the watched output. Call take() after every step."""
 
     def __init__(self, sim: Sim, outputs: Sequence[Any], capacity: int, interval: float = 0.0,
@@ -84,8 +84,10 @@ class Recorder:
         """Begins with the rows of another recorder of the same outputs and interval."""
         rows, width = (*table.shape, 0, 0)[:2]
         if width != self._width or rows > self._struct.capacity:
-            refuse_value("recorder", "table", (rows, width), f"be of {self._width} columns and at most {self._struct.capacity} rows")
-        need("numpy").frombuffer(self._memory, dtype="float64")[:rows * width] = need("numpy").asarray(table, dtype="float64").ravel()
+            refuse_value("recorder", "table", (rows, width),
+                         f"be of {self._width} columns and at most {self._struct.capacity} rows")
+        need("numpy").frombuffer(self._memory,
+                                 dtype="float64")[:rows * width] = need("numpy").asarray(table, dtype="float64").ravel()
         self._struct.row_count = rows
 
     def __len__(self) -> int:
@@ -127,7 +129,8 @@ class ProfileRecorder:
     def __init__(self, sim: Sim, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
                  interval: float = 0.0, string: Id | str | None = None) -> None:
         string = as_id(string, sim._parts, "string")
-        self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, len(ProfileQuantity) - 1) for one in quantities]
+        self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, len(ProfileQuantity) - 1)
+                                           for one in quantities]
         capacity, interval = whole(capacity, "profile recorder", "capacity", 1, 2 ** 40), _interval(interval)
         if not isinstance(stations, int):
             stations = reals(stations, "profile recorder", "stations", unit="m")
@@ -142,7 +145,8 @@ class ProfileRecorder:
             self._profile.distance = ctypes.cast(self._distance, POINTER(c_double))
         self._along: Any = stations
         if numpy is not None:
-            self._along = (values_of(sim, as_id(string), [PROFILE_DISTANCE], count=count)[:, 0] if isinstance(stations, int)
+            self._along = (values_of(sim, as_id(string), [PROFILE_DISTANCE], count=count)[:, 0]
+                           if isinstance(stations, int)
                            else numpy.array(stations))
         self._memory = (c_double * (capacity * self._width))()
         self._struct = ProfileRecorderStruct(capacity=capacity, interval=interval)
@@ -167,7 +171,8 @@ class ProfileRecorder:
     @property
     def columns(self) -> list[str]:
         """Names of the quantities with their units."""
-        return [f"{output_name(OUTPUT_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]" for quantity in self._quantities]
+        return [f"{output_name(OUTPUT_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]"
+                for quantity in self._quantities]
 
     @property
     def along(self) -> Any:

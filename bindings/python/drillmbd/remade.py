@@ -37,7 +37,8 @@ def rebound(scene: Scene) -> Scene:
 
 
 def _with_model(scene: Scene, model: Any) -> Scene:
-    return replace(scene, model=model, names=model.own(scene.names), outputs=model.own(scene.outputs), analyses=model.own(scene.analyses))
+    return replace(scene, model=model, names=model.own(scene.names), outputs=model.own(scene.outputs),
+                   analyses=model.own(scene.analyses))
 
 
 def time_functions_of(scene: Scene) -> list[Any]:

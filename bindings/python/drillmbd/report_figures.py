@@ -37,7 +37,8 @@ def line(x: Any, y: Any, name: str, number: int) -> dict[str, Any]:
 
 @dataclass
 class InSpace:
-    """The string in its hole, in the units of the output: axis of the hole, and shapes of the string as (position, displacement)."""
+    """The string in its hole, in the units of the output: axis of the hole, and shapes of the string as (position,
+    displacement)."""
     axis: Any
     tangent: Any
     shapes: list[tuple[Any, Any]]
@@ -73,8 +74,10 @@ def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[s
         return {"type": "scatter3d", "mode": "lines", "x": rounded(points[:, 0]), "y": rounded(points[:, 1]),
                 "z": rounded(points[:, 2]), **more}
 
-    data = [trace(space.drawn(0, factor), name=phrase("string, across {factor:g} times", factor=factor), line={"color": "#0072B2", "width": 6}),
-            trace(space.drawn(0, 1.0), name=phrase("string, to scale"), line={"color": "#000000", "width": 4}, visible=False),
+    data = [trace(space.drawn(0, factor), name=phrase("string, across {factor:g} times", factor=factor),
+                  line={"color": "#0072B2", "width": 6}),
+            trace(space.drawn(0, 1.0), name=phrase("string, to scale"), line={"color": "#000000", "width": 4},
+                  visible=False),
             trace(axis, name=phrase("axis of the hole"), line={"color": "#D55E00", "width": 2, "dash": "dash"})]
     if space.radius:
         data.append(_tube(axis, space.tangent, factor * space.radius, phrase("hole, {factor:g} times", factor=factor)))
@@ -83,11 +86,14 @@ def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[s
         for scale in (factor, 1.0)]} for number, time in enumerate(times)] if len(times) > 1 else []
     axes = {"x": phrase("north [{unit}]", unit=units.unit("m")), "y": phrase("west [{unit}]", unit=units.unit("m")),
             "z": phrase("height [{unit}]", unit=units.unit("m"))}
-    layout: dict[str, Any] = {"scene": {"camera": {"eye": _eye(axis)}, **_box(space, axes)}, "height": 560, "showlegend": True,
+    layout: dict[str, Any] = {"scene": {"camera": {"eye": _eye(axis)}, **_box(space, axes)}, "height": 560,
+                              "showlegend": True,
                               "margin": {"l": 0, "r": 0, "t": 50, "b": 20}, "legend": {"y": -0.32, "yanchor": "top"}}
     tube = len(data) - 3
-    layout["updatemenus"] = [_buttons([(phrase("drawn larger"), "restyle", [{"visible": [True, False, True] + [True] * tube}]),
-                                       (phrase("to scale"), "restyle", [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
+    layout["updatemenus"] = [_buttons([(phrase("drawn larger"), "restyle",
+                                        [{"visible": [True, False, True] + [True] * tube}]),
+                                       (phrase("to scale"), "restyle",
+                                        [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
     if frames:
         playing = {"frame": {"duration": 100}, "fromcurrent": True}
         layout["updatemenus"].append(_buttons([(phrase("play"), "animate", [None, playing]),
@@ -100,13 +106,16 @@ def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[s
 
 def _box(space: InSpace, titles: dict[str, Phrase]) -> dict[str, Any]:
     """Axes to one scale around string and hole, as large as the picture shows them from the eye."""
-    everything = need("numpy").concatenate([space.axis, *(space.drawn(number, space.factor) for number in range(len(space.shapes)))])
+    everything = need("numpy").concatenate([space.axis, *(space.drawn(number, space.factor)
+                                                          for number in range(len(space.shapes)))])
     room = 1.1 * space.factor * space.radius
     low, high = everything.min(axis=0) - room, everything.max(axis=0) + room
     size = [max(float(one), 1e-3 * float(max(high - low))) for one in high - low]
     scale = min(WIDEST / max(size[:2]), HIGHEST / size[2])
-    axes = {f"{name}axis": {"title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 11}, "nticks": 6 if size[i] > SHORT * max(size) else 2,
-                            "range": rounded([low[i], low[i] + size[i]])} for i, (name, title) in enumerate(titles.items())}
+    axes = {f"{name}axis": {"title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 11},
+                            "nticks": 6 if size[i] > SHORT * max(size) else 2,
+                            "range": rounded([low[i], low[i] + size[i]])}
+            for i, (name, title) in enumerate(titles.items())}
     return {"aspectmode": "manual", "aspectratio": {name: scale * one for name, one in zip("xyz", size)}, **axes}
 
 

@@ -1,4 +1,5 @@
-"""Samples of the run for the report: shapes of the string, stresses, and the least and largest of hook load and torque."""
+"""Samples of the run for the report: shapes of the string, stresses, and the least and largest of hook load and
+torque."""
 from __future__ import annotations
 
 import math
@@ -14,7 +15,8 @@ class Frames:
     def __init__(self, shapes: list[tuple[Any, Any]], times: list[float]) -> None:
         self.shapes, self.times = shapes, times
         self.stresses: list[tuple[float, float]] = []   #: [Pa] the largest at a time [s]
-        self.before: list[list[float]] = []             #: extremes of the part of the run before the state that it goes on from
+        #: extremes of the part of the run before the state that it goes on from
+        self.before: list[list[float]] = []
         self.sim: Any = None
         self.window: Any = None
 
@@ -36,8 +38,10 @@ class Frames:
     def keep(self) -> dict[str, Any]:
         """For the state of the run."""
         array = need("numpy").array
-        return {"positions": array([one for one, _ in self.shapes]), "displacements": array([one for _, one in self.shapes]),
-                "times": array(self.times), "stresses": array(self.stresses).reshape(-1, 2), "extremes": array(self.extremes())}
+        return {"positions": array([one for one, _ in self.shapes]),
+                "displacements": array([one for _, one in self.shapes]),
+                "times": array(self.times), "stresses": array(self.stresses).reshape(-1, 2),
+                "extremes": array(self.extremes())}
 
     def take_up(self, kept: dict[str, Any]) -> None:
         """Continues from it."""

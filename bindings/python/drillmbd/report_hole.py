@@ -1,8 +1,8 @@
 """Plan and section of the hole to scale, with the force of the string on the wall, as SVG.
 
-Frame of the world: x north, y west, z up. Both views have the horizontal distance a along the azimuth A of the line from the collar to the
-end of the hole: a = n cos A + e sin A with n = x, e = -y; the plan has the distance to the right of it, -n sin A + e cos A, downward; the
-section has the height."""
+Frame of the world: x north, y west, z up. Both views have the horizontal distance a along the azimuth A of the line
+from the collar to the end of the hole: a = n cos A + e sin A with n = x, e = -y; the plan has the distance to the right
+of it, -n sin A + e cos A, downward; the section has the height."""
 from __future__ import annotations
 
 import html
@@ -16,7 +16,8 @@ from .language import Language, phrase
 from .scene import Scene
 from .unit_systems import Units
 
-#: Width and colour of the line by the class of contact force: none, then four equal classes. The colours grow darker with the force.
+#: Width and colour of the line by the class of contact force: none, then four equal classes. The colours grow darker
+#: with the force.
 CLASSES = ((1.5, "#9a9a9a"), (3.5, "#f0b429"), (5.5, "#d9662b"), (7.5, "#9b2226"), (10.0, "#2b0a1e"))
 POINTS = 200
 LARGEST_HEIGHT = 0.62    #: of both views together, over the width of the picture
@@ -62,7 +63,8 @@ class HoleView:
 
 
 def contacts(found: Any) -> tuple[list[int], list[float]]:
-    """Stations at the middles of the pipes of a profile of two stations a pipe, and the larger force of its ends and middle."""
+    """Stations at the middles of the pipes of a profile of two stations a pipe, and the larger force of its ends and
+    middle."""
     normal = [0.0 if math.isnan(one) else float(one) for one in found["normal_force"]]
     middles = list(range(1, len(normal) - 1, 2))
     return middles, [max(normal[i - 1:i + 2]) for i in middles]
@@ -85,7 +87,8 @@ def hole_view(scene: Scene, found: Any, units: Units) -> HoleView | None:
     length, per_length = units.factor("m"), units.factor("N/m")
     pipes = [[float(found.position[i][k]) - collar[k] for k in range(3)] for i in middles]
     return HoleView([length * depth for depth in depths], [turned(one, azimuth, length) for one in moves],
-                    [math.degrees(point.inclination) - 90.0 for point in points], azimuth, [turned(one, azimuth, length) for one in pipes],
+                    [math.degrees(point.inclination) - 90.0 for point in points], azimuth,
+                    [turned(one, azimuth, length) for one in pipes],
                     [per_length * one for one in force], units.unit("m"), units.unit("N/m"))
 
 
@@ -98,7 +101,8 @@ def azimuth_of(end: Sequence[float], length: float, collar: float) -> float:
 def turned(move: Sequence[float], azimuth: float, factor: float) -> tuple[float, float, float]:
     """Distance along the azimuth, to the right of it and upward."""
     north, east = move[0], -move[1]
-    return (factor * (north * math.cos(azimuth) + east * math.sin(azimuth)), factor * (east * math.cos(azimuth) - north * math.sin(azimuth)),
+    return (factor * (north * math.cos(azimuth) + east * math.sin(azimuth)),
+            factor * (east * math.cos(azimuth) - north * math.sin(azimuth)),
             factor * move[2])
 
 
@@ -131,15 +135,20 @@ class Drawing:
         """Title, plan, section, scale and legend from top to bottom."""
         size = self.size
         below = self._view(1, 1.4 * size, self.to(phrase("Plan: seen from above, along the azimuth {azimuth:.0f}°",
-                                                         azimuth=math.degrees(self.view.azimuth) % 360.0)), self._plan_marks)
-        below = self._view(2, below + 2.2 * size, self.to(phrase("Section: seen from the side, to the same scale")), self._section_marks)
+                                                         azimuth=math.degrees(self.view.azimuth) % 360.0)),
+                           self._plan_marks)
+        below = self._view(2, below + 2.2 * size, self.to(phrase("Section: seen from the side, to the same scale")),
+                           self._section_marks)
         below = self._scale_bar(below + 2.0 * size)
         below = self._legend(below + 2.6 * size)
-        about = html.escape(self.to(phrase("Plan and section of the hole to scale, with the contact force of the string")), quote=True)
-        return (f'<svg viewBox="0 0 {self.width:g} {below:.0f}" width="{self.width:g}" role="img" aria-label="{about}" font-size="{size:g}" fill="#111">'
+        about = html.escape(self.to(phrase("Plan and section of the hole to scale, with the contact force of the "
+                                           "string")), quote=True)
+        return (f'<svg viewBox="0 0 {self.width:g} {below:.0f}" width="{self.width:g}" role="img" aria-label="{about}" '
+                f'font-size="{size:g}" fill="#111">'
                 + "".join(self.parts) + "</svg>")
 
-    def _view(self, component: int, top: float, title: str, marks: Callable[[Callable[[Any], Place], float, float], None]) -> float:
+    def _view(self, component: int, top: float, title: str, marks: Callable[[Callable[[Any], Place], float, float],
+                                                                            None]) -> float:
         """One view below `top`; returns its lower edge."""
         size = self.size
         sign = 1.0 if component == 1 else -1.0
@@ -148,7 +157,8 @@ class Drawing:
         lower = upper + self.scale * (max(across) - min(across))
 
         def at(point: Any) -> Place:
-            return (self.left + self.scale * (point[0] - self.low), upper + self.scale * (sign * point[component] - min(across)))
+            return (self.left + self.scale * (point[0] - self.low),
+                    upper + self.scale * (sign * point[component] - min(across)))
 
         self.parts.append(_text(0.5 * size, top, title, more='font-weight="bold"'))
         course = [at(one) for one in self.view.course]
@@ -158,14 +168,16 @@ class Drawing:
         self.parts.append(_line(course, "#e2e2e2", 13.0, 'stroke-linecap="round"'))
         self._string([at(one) for one in self.view.string])
         self._depths(at, component)
-        self.parts.append(f'<rect x="{x - 0.4 * size:.1f}" y="{y - 0.4 * size:.1f}" width="{0.8 * size:g}" height="{0.8 * size:g}" fill="#fff" '
+        self.parts.append(f'<rect x="{x - 0.4 * size:.1f}" y="{y - 0.4 * size:.1f}" width="{0.8 * size:g}" '
+                          f'height="{0.8 * size:g}" fill="#fff" '
                           'stroke="#000" stroke-width="2"/>')
         self.parts.append(f'<circle cx="{course[-1][0]:.1f}" cy="{course[-1][1]:.1f}" r="{0.4 * size:g}" fill="#000"/>')
         marks(at, upper, lower)
         return lower + (2.6 if component == 2 or self.width > 500.0 else 4.0) * size
 
     def _string(self, places: list[Place]) -> None:
-        """Each pipe from half-way to its neighbour before to half-way to the one behind, by the class of its force; equal ones as one line."""
+        """Each pipe from half-way to its neighbour before to half-way to the one behind, by the class of its force;
+        equal ones as one line."""
         classes = [self.view.class_of(force) for force in self.view.force]
         first = 0
         for i in range(1, len(places) + 1):
@@ -186,7 +198,8 @@ class Drawing:
         while number * step < depths[-1] - 0.25 * step:
             i = min(int((number * step - depths[0]) / length * POINTS), POINTS - 1)
             share = (number * step - depths[i]) / (depths[i + 1] - depths[i])
-            (x, y), (x0, y0), (x1, y1) = (at([a + share * (b - a) for a, b in zip(self.view.course[i], self.view.course[i + 1])]),
+            (x, y), (x0, y0), (x1, y1) = (at([a + share * (b - a)
+                                              for a, b in zip(self.view.course[i], self.view.course[i + 1])]),
                                           at(self.view.course[i]), at(self.view.course[i + 1]))
             across = max(math.hypot(x1 - x0, y1 - y0), 1e-9)
             nx, ny = 8.0 * (y1 - y0) / across, -8.0 * (x1 - x0) / across
@@ -195,7 +208,8 @@ class Drawing:
             if component == 2:
                 text = f"{number * step:g} {self.view.length_unit}"
                 upright = abs(ny) < abs(nx)
-                self.parts.append(_text(x - 1.0 * size, y + 0.35 * size, text, "end") if upright else _text(x, y + 1.9 * size, text, "middle"))
+                self.parts.append(_text(x - 1.0 * size, y + 0.35 * size, text, "end") if upright
+                                  else _text(x, y + 1.9 * size, text, "middle"))
             number += 1
 
     def _plan_marks(self, at: Callable[[Any], Place], upper: float, lower: float) -> None:
@@ -204,7 +218,9 @@ class Drawing:
         above, end_above = self._above(at)
         self.parts.append(_text(x, y - above, self.to(phrase("collar"))))
         if abs(end_x - x) > 8.0 * size:
-            self.parts.append(_text(end_x, end_y - end_above, self.to(phrase("end, {depth:.5g} {unit}", depth=view.depths[-1], unit=view.length_unit)),
+            self.parts.append(_text(end_x, end_y - end_above,
+                                    self.to(phrase("end, {depth:.5g} {unit}", depth=view.depths[-1],
+                                                   unit=view.length_unit)),
                                     "end"))
         self._north(self.width - 2.2 * size, 2.3 * size if self.width > 500.0 else lower + 2.4 * size)
 
@@ -216,10 +232,12 @@ class Drawing:
         upright = abs(end_x - x) < 12.0 * size
         above, end_above = (0.5 * size, -0.4 * size) if upright else self._above(at)
         self.parts.append(_text(x + (1.2 * size if upright else 0.0), y - above, begin))
-        self.parts.append(_text(end_x + 1.2 * size, end_y - end_above, end) if upright else _text(end_x, end_y - end_above, end, "end"))
+        self.parts.append(_text(end_x + 1.2 * size, end_y - end_above, end) if upright
+                          else _text(end_x, end_y - end_above, end, "end"))
 
     def _above(self, at: Callable[[Any], Place]) -> tuple[float, float]:
-        """Height of the labels above collar and end, so that the hole, which may rise behind them, does not cross them."""
+        """Height of the labels above collar and end, so that the hole, which may rise behind them, does not cross
+        them."""
         course, room = [at(one) for one in self.view.course], LABEL * self.size
         begin, end = course[0], course[-1]
         highest = min([y for x, y in course if x <= begin[0] + room], default=begin[1])
@@ -232,10 +250,12 @@ class Drawing:
         dx, dy = math.cos(azimuth), -math.sin(azimuth)
         length = 0.9 * size
         tip, tail = (x + length * dx, y + length * dy), (x - length * dx, y - length * dy)
-        head = [(tip[0] - 0.5 * size * dx - 0.35 * size * s * dy, tip[1] - 0.5 * size * dy + 0.35 * size * s * dx) for s in (1.0, -1.0)]
+        head = [(tip[0] - 0.5 * size * dx - 0.35 * size * s * dy, tip[1] - 0.5 * size * dy + 0.35 * size * s * dx)
+                for s in (1.0, -1.0)]
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in (tip, *head))
         self.parts.append(_line([tail, tip], "#000", 1.6) + f'<polygon points="{points}" fill="#000"/>')
-        self.parts.append(_text(tip[0] + 0.75 * size * dx, tip[1] + 0.75 * size * dy + 0.35 * size, self.to(phrase("N")), "middle",
+        self.parts.append(_text(tip[0] + 0.75 * size * dx, tip[1] + 0.75 * size * dy + 0.35 * size,
+                                self.to(phrase("N")), "middle",
                                 more='font-weight="bold"'))
 
     def _scale_bar(self, top: float) -> float:
@@ -243,13 +263,16 @@ class Drawing:
         length = nice(0.3 * (self.width - 2.0 * self.margin) / self.scale)
         x, end = self.margin, self.margin + self.scale * length
         self.parts.append(_line([(x, top - 4.0), (x, top), (end, top), (end, top - 4.0)], "#000", 2.0))
-        self.parts.append(_text(end + 0.7 * size, top + 0.1 * size, self.to(phrase("{length:g} {unit}, the same along and across", length=length, unit=unit))))
+        self.parts.append(_text(end + 0.7 * size, top + 0.1 * size,
+                                self.to(phrase("{length:g} {unit}, the same along and across", length=length,
+                                               unit=unit))))
         return top
 
     def _legend(self, top: float) -> float:
         """Classes of the contact force, those that occur and those below them."""
         size, view = self.size, self.view
-        self.parts.append(_text(0.5 * size, top, self.to(phrase("Contact force on the wall [{unit}]", unit=view.force_unit)), more='font-weight="bold"'))
+        self.parts.append(_text(0.5 * size, top, self.to(phrase("Contact force on the wall [{unit}]",
+                                                                unit=view.force_unit)), more='font-weight="bold"'))
         most = max([view.class_of(force) for force in view.force], default=0)
         x, y = 0.5 * size, top + 1.6 * size
         for number in range(most + 1):
@@ -258,7 +281,8 @@ class Drawing:
             room = (3.6 + 0.62 * len(text)) * size + (size if number == 0 else 0.0)
             if x + room > self.width:
                 x, y = 0.5 * size, y + 1.6 * size
-            self.parts.append(_line([(x, y - 0.35 * size), (x + 2.2 * size, y - 0.35 * size)], colour, width) + _text(x + 2.7 * size, y, text))
+            self.parts.append(_line([(x, y - 0.35 * size), (x + 2.2 * size, y - 0.35 * size)], colour,
+                                    width) + _text(x + 2.7 * size, y, text))
             x += room
         return y + 0.8 * size
 
@@ -269,17 +293,20 @@ def _between(a: Place, b: Place) -> Place:
 
 # ---- The still picture -----------------------------------------------------------------------------------------------
 def still(axis: Any, string: Any, radius: float, factor: float, to: Language) -> str:
-    """An isometric drawing of the string in its hole, displacements and the radius of the hole `factor` times larger across: in place of the
-    view in space where nothing can be turned."""
+    """An isometric drawing of the string in its hole, displacements and the radius of the hole `factor` times larger
+    across: in place of the view in space where nothing can be turned."""
     numpy = need("numpy")
     ends = axis[-1] - axis[0]
     heading = math.atan2(ends[1], ends[0]) if math.hypot(ends[0], ends[1]) > FLAT * numpy.linalg.norm(ends) else 0.0
-    turn = numpy.array([[math.cos(heading), math.sin(heading), 0.0], [-math.sin(heading), math.cos(heading), 0.0], [0.0, 0.0, 1.0]])
-    flat = numpy.array([[math.cos(math.pi / 6.0), -0.5], [-math.cos(math.pi / 6.0), -0.5], [0.0, -1.0]])  # rows: along, left, up; columns: right, down
+    turn = numpy.array([[math.cos(heading), math.sin(heading), 0.0], [-math.sin(heading), math.cos(heading), 0.0],
+                        [0.0, 0.0, 1.0]])
+    # rows: along, left, up; columns: right, down
+    flat = numpy.array([[math.cos(math.pi / 6.0), -0.5], [-math.cos(math.pi / 6.0), -0.5], [0.0, -1.0]])
     project = turn.T @ flat
     tangent = numpy.gradient(axis, axis=0)
     tangent /= numpy.maximum(numpy.linalg.norm(tangent, axis=1, keepdims=True), 1e-300)
-    rings = [ring(axis[i], tangent[i], factor * radius) for i in numpy.linspace(0, len(axis) - 1, 25).astype(int)] if radius else []
+    rings = [ring(axis[i], tangent[i], factor * radius)
+             for i in numpy.linspace(0, len(axis) - 1, 25).astype(int)] if radius else []
     everything = numpy.concatenate([axis, string, *rings]) @ project
     low, extent = everything.min(axis=0), numpy.maximum(everything.max(axis=0) - everything.min(axis=0), 1e-9)
     scale = min(660.0 / extent[0], 420.0 / extent[1])
@@ -291,8 +318,10 @@ def still(axis: Any, string: Any, radius: float, factor: float, to: Language) ->
     parts += [_line(drawn(axis), "#555", 1.0, 'stroke-dasharray="6 4"'), _line(drawn(string), "#000", 2.5)]
     width, height = 40.0 + scale * extent[0], 40.0 + scale * extent[1]
     parts += _triad(turn, flat, 60.0, 50.0 if project[0][1] * ends[0] < 0.0 or ends[2] > 0.0 else height - 60.0, to)
-    text = to(phrase("circles: wall of the hole, {factor:g} times; line: string; dashed: axis of the hole", factor=factor))
-    return (f'<svg viewBox="0 0 {max(width, 560.0):.0f} {height + 24.0:.0f}" width="{max(width, 560.0):.0f}" role="img" font-size="13" fill="#111">'
+    text = to(phrase("circles: wall of the hole, {factor:g} times; line: string; dashed: axis of the hole",
+                     factor=factor))
+    return (f'<svg viewBox="0 0 {max(width, 560.0):.0f} {height + 24.0:.0f}" width="{max(width, 560.0):.0f}" '
+            'role="img" font-size="13" fill="#111">'
             + "".join(parts) + _text(10.0, height + 12.0, text) + "</svg>")
 
 
@@ -300,7 +329,8 @@ def _triad(turn: Any, flat: Any, x: float, y: float, to: Language) -> list[str]:
     """North, west and up as arrows from one point."""
     parts = []
     for name, (dx, dy) in zip((phrase("N"), phrase("W"), phrase("up")), 28.0 * (turn.T @ flat)):
-        parts += [_line([(x, y), (x + dx, y + dy)], "#000", 1.2), _text(x + 1.4 * dx, y + 1.4 * dy + 4.0, to(name), "middle", 11.0)]
+        parts += [_line([(x, y), (x + dx, y + dy)], "#000", 1.2), _text(x + 1.4 * dx, y + 1.4 * dy + 4.0, to(name),
+                                                                        "middle", 11.0)]
     return parts
 
 

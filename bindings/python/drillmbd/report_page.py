@@ -58,7 +58,7 @@ pre{overflow:auto;font-size:12px}.nogl .turning{display:none}.nogl .still{displa
 @page{size:A4;margin:15mm}
 @media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.3}h2{margin:1em 0 .3em}.modebar-container{display:none}h1,h2,h2+p{break-after:avoid}section,.card,tr,.wide,.still{break-inside:avoid}
 .cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning,.screen{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow:visible}
-.verdict{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"""
+.verdict{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"""  # noqa: E501
 
 SCRIPT = """const problems=document.getElementById("problems");let failed=0;
 function trouble(text){failed+=1;problems.textContent+=text+"\\n";problems.dataset.count=failed}
@@ -88,12 +88,15 @@ if(f.frames)await Plotly.addFrames("figure"+i,f.frames);drawn+=1}catch(e){troubl
 const flat=figures.map((f,i)=>i).filter(i=>!figures[i].layout.scene);
 addEventListener("beforeprint",()=>flat.forEach(i=>Plotly.relayout("figure"+i,{width:paper,height:340})));
 addEventListener("afterprint",()=>flat.forEach(i=>Plotly.relayout("figure"+i,{autosize:true,width:null,height:null})));
-document.body.dataset.drawn=drawn})();"""
+document.body.dataset.drawn=drawn})();"""  # noqa: E501
 
 #: Words of plotly's own buttons.
-BUTTONS = (phrase("Download plot as a PNG"), phrase("Zoom"), phrase("Pan"), phrase("Zoom in"), phrase("Zoom out"), phrase("Autoscale"), phrase("Reset axes"),
-           phrase("Orbital rotation"), phrase("Turntable rotation"), phrase("Reset camera to default"), phrase("Reset camera to last save"),
-           phrase("Double-click to zoom back out"), phrase("Taking snapshot - this may take a few seconds"), phrase("Snapshot succeeded"))
+BUTTONS = (phrase("Download plot as a PNG"), phrase("Zoom"), phrase("Pan"), phrase("Zoom in"), phrase("Zoom out"),
+           phrase("Autoscale"), phrase("Reset axes"),
+           phrase("Orbital rotation"), phrase("Turntable rotation"), phrase("Reset camera to default"),
+           phrase("Reset camera to last save"),
+           phrase("Double-click to zoom back out"), phrase("Taking snapshot - this may take a few seconds"),
+           phrase("Snapshot succeeded"))
 
 
 class Page:
@@ -112,7 +115,8 @@ class Page:
 
     def tile(self, tile: Tile) -> str:
         """A card with the verdict in colour and in words."""
-        return (f'<div class="card {CLASSES.get(tile.verdict, "none")}">{self.text(tile.title)}<b>{self.text(tile.value)}</b>'
+        return (f'<div class="card {CLASSES.get(tile.verdict, "none")}">{self.text(tile.title)}'
+                f'<b>{self.text(tile.value)}</b>'
                 f'<span class="verdict">{self.text(tile.verdict)}</span> {self.text(tile.text)}</div>')
 
     def verdicts(self) -> str:
@@ -121,21 +125,28 @@ class Page:
         for verdict in WORST_FIRST:
             titles = [self.to(tile.title) for tile in self.study.tiles if tile.verdict == verdict]
             if titles:
-                found.append(f'<div class="{CLASSES.get(verdict, "none")}"><span class="verdict">{self.text(verdict)}</span> '
+                found.append(f'<div class="{CLASSES.get(verdict, "none")}"><span '
+                             f'class="verdict">{self.text(verdict)}</span> '
                              f'{html.escape(self.to(phrase(", ")).join(titles))}</div>')
         return "".join(found)
 
     def limits(self) -> str:
         """The table of limits for the crew."""
         heads = (phrase("Quantity"), phrase("Do not exceed"), phrase("Expected"), phrase("Verdict"))
-        rows = "".join(f'<tr class="{CLASSES.get(verdict, "none")}"><th>{self.text(title)}</th><td><b>{self.text(limit)}</b></td><td>{self.text(expected)}</td>'
-                       f'<td><span class="verdict">{self.text(verdict)}</span></td></tr>' for title, limit, expected, verdict in self.study.rows)
+        rows = "".join(f'<tr class="{CLASSES.get(verdict, "none")}"><th>{self.text(title)}</th>'
+                       f'<td><b>{self.text(limit)}</b></td><td>{self.text(expected)}</td>'
+                       f'<td><span class="verdict">{self.text(verdict)}</span></td></tr>'
+                       for title, limit, expected, verdict in self.study.rows)
         over = [tile.title for tile in self.study.tiles if tile.verdict == OVER]
-        stop = f'<p><b>{self.text(phrase("Do not drill as described here. Over the limit: {quantities}.", quantities=joined(", ", over)))}</b></p>' if over else ""
-        return (self.heading(phrase("Limits that must not be exceeded")) + stop + '<div class="scroll"><table class="limits"><tr>'
+        warning = phrase("Do not drill as described here. Over the limit: {quantities}.", quantities=joined(", ", over))
+        stop = f'<p><b>{self.text(warning)}</b></p>' if over else ""
+        return (self.heading(phrase("Limits that must not be exceeded")) + stop
+                + '<div class="scroll"><table class="limits"><tr>'
                 + "".join(f"<th>{self.text(head)}</th>" for head in heads) + f"</tr>{rows}</table></div><p>"
-                + self.text(phrase("These values hold for this hole, string, mud and friction only. Stop and ask before a longer hole, another bit, or more "
-                                   "than a value of this table. A quantity without the verdict OK is not cleared. If a reading is far from the expected "
+                + self.text(phrase("These values hold for this hole, string, mud and friction only. Stop and ask "
+                                   "before a longer hole, another bit, or more "
+                                   "than a value of this table. A quantity without the verdict OK is not cleared. If a "
+                                   "reading is far from the expected "
                                    "value, this page does not describe the hole: stop and ask.")) + "</p>")
 
     def hole(self) -> str:
@@ -144,19 +155,24 @@ class Page:
         found = f'{self.heading(phrase("Hole, string and operation"))}<ul>{words}</ul>'
         if self.study.hole is None:
             return found
-        drawn = "".join(f'<div class="{name}">{Drawing(self.study.hole, width, self.to).svg()}</div>' for name, width in (("wide", WIDE), ("narrow", NARROW)))
-        about = phrase("To scale. Thicker and darker is a larger contact force: the normal force per length on the wall of the stiff string in the static "
+        drawn = "".join(f'<div class="{name}">{Drawing(self.study.hole, width, self.to).svg()}</div>'
+                        for name, width in (("wide", WIDE), ("narrow", NARROW)))
+        about = phrase("To scale. Thicker and darker is a larger contact force: the normal force per length on the "
+                       "wall of the stiff string in the static "
                        "equilibrium at time 0 s, the largest of each pipe.")
-        return f'{found}<section><h2>{self.text(phrase("Plan and section"))}</h2><p>{self.text(about)}</p>{drawn}</section>'
+        return (f'{found}<section><h2>{self.text(phrase("Plan and section"))}</h2>'
+                f'<p>{self.text(about)}</p>{drawn}</section>')
 
     def live(self) -> str:
         """The page that runs the scene, in a frame that is empty until the reader starts it; nothing on paper."""
         if not self.study.live:
             return ""
-        about = phrase("Change rotation, feed, load on the bit, friction and diameter of the hole, and see how torque, thrust, bit speed and contact "
+        about = phrase("Change rotation, feed, load on the bit, friction and diameter of the hole, and see how torque, "
+                       "thrust, bit speed and contact "
                        "respond. The values above do not change: they hold for the scene as it is described.")
         return (f'<section class="screen">{self.heading(phrase("Run the scene"))}<p>{self.text(about)}</p>'
-                f'<p><button id="start">{self.text(phrase("Start"))}</button></p><iframe id="live" title="{self.text(phrase("Run the scene"))}" hidden></iframe>'
+                f'<p><button id="start">{self.text(phrase("Start"))}</button></p><iframe id="live" '
+                f'title="{self.text(phrase("Run the scene"))}" hidden></iframe>'
                 f'<script type="text/plain" id="livepage">{self.study.live}</script></section>')
 
     def figure(self, number: int, figure: Figure) -> str:
@@ -165,8 +181,10 @@ class Page:
         inside = f'<div class="figure" id="figure{number}"></div>'
         space = self.study.space
         if "scene" in drawn.get("layout", {}) and space is not None:
-            picture = still(space.axis, space.drawn(len(space.shapes) - 1, space.factor), space.radius, space.factor, self.to)
-            return (f'<section><h2>{self.text(title)}</h2><p class="turning">{self.text(text)}</p><div class="turning">{inside}</div>'
+            picture = still(space.axis, space.drawn(len(space.shapes) - 1, space.factor), space.radius, space.factor,
+                            self.to)
+            return (f'<section><h2>{self.text(title)}</h2><p class="turning">{self.text(text)}</p><div '
+                    f'class="turning">{inside}</div>'
                     f'<div class="still">{picture}</div></section>')
         return f"<section><h2>{self.text(title)}</h2><p>{self.text(text)}</p>{inside}</section>"
 
@@ -177,7 +195,8 @@ class Page:
 
     def items(self, sentences: Iterable[str]) -> str:
         """A list, of one "none" at least."""
-        return "<ul>" + ("".join(f"<li>{self.text(one)}</li>" for one in sentences) or f"<li>{self.text(phrase('none'))}</li>") + "</ul>"
+        return "<ul>" + ("".join(f"<li>{self.text(one)}</li>" for one in sentences)
+                         or f"<li>{self.text(phrase('none'))}</li>") + "</ul>"
 
 
 def page(study: Content) -> str:
@@ -186,14 +205,20 @@ def page(study: Content) -> str:
     packed = base64.b64encode(gzip.compress(need("plotly.offline").get_plotlyjs().encode(), 9, mtime=0)).decode()
     words = {} if made.to.name == "en" else {str(one): made.to(one) for one in BUTTONS}
     title = made.text(study.title or phrase("Scene without a title"))
-    facts = "".join(f"<tr><th>{made.text(key)}</th><td>{made.text(value)}</td></tr>" for key, value in study.assumptions())
+    facts = "".join(f"<tr><th>{made.text(key)}</th><td>{made.text(value)}</td></tr>"
+                    for key, value in study.assumptions())
     return (f'<!doctype html><html lang="{made.to.tag}"><head><meta charset="utf-8"><title>{title}</title>'
-            f'<meta name="viewport" content="width=device-width,initial-scale=1"><style>{STYLE}</style></head><body><h1>{title}</h1>'
-            f'<p class="made">{made.text(study.made)}</p><p>{made.text(study.headline)}</p>{made.verdicts()}{made.limits()}'
-            f'{made.heading(phrase("Results against limits"))}<div class="cards">{"".join(made.tile(tile) for tile in study.tiles)}</div>'
-            f'{made.hole()}{made.live()}{made.heading(phrase("Notes"))}{made.items([*study.out.summary["warnings"], *study.out.summary["notes"]])}'
+            '<meta name="viewport" '
+            f'content="width=device-width,initial-scale=1"><style>{STYLE}</style></head><body><h1>{title}</h1>'
+            f'<p class="made">{made.text(study.made)}</p><p>{made.text(study.headline)}</p>'
+            f'{made.verdicts()}{made.limits()}'
+            f'{made.heading(phrase("Results against limits"))}<div '
+            f'class="cards">{"".join(made.tile(tile) for tile in study.tiles)}</div>'
+            f'{made.hole()}{made.live()}{made.heading(phrase("Notes"))}'
+            f'{made.items([*study.out.summary["warnings"], *study.out.summary["notes"]])}'
             + "".join(made.figure(number, one) for number, one in enumerate(study.figures))
-            + f'{made.heading(phrase("Assumptions"))}<div class="scroll"><table>{facts}</table></div>{made.heading(phrase("Model check"))}'
+            + f'{made.heading(phrase("Assumptions"))}<div '
+              f'class="scroll"><table>{facts}</table></div>{made.heading(phrase("Model check"))}'
             f'<pre>{html.escape(study.out.units.sentence(made.to.lines(study.check)))}</pre>'
             f'<pre id="problems" data-count="0"></pre><script type="text/plain" id="plotly">{packed}</script>'
             + made.data("figures", made.to.all([figure for _, _, figure in study.figures])) + made.data("words", words)

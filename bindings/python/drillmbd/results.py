@@ -79,7 +79,8 @@ class CommandOutput:
         if status == Status.NOTE_INCOMPLETE and message:
             self.note_text(self.units.sentence(message))
         elif status > 0:
-            self.note_text(self.units.sentence(phrase("{analysis}: {reason}", analysis=of, reason=Foreign(status_text(status)))))
+            self.note_text(self.units.sentence(phrase("{analysis}: {reason}", analysis=of,
+                                                      reason=Foreign(status_text(status)))))
 
     def note_text(self, text: str) -> None:
         """A note."""
@@ -93,7 +94,8 @@ class CommandOutput:
                 writer = csv.writer(file, lineterminator="\n")
                 writer.writerow([no_formula(self.units.head(head)) for head in heads])
                 factors = [self.units.factor_of(head) for head in heads]
-                writer.writerows([[repr(float(one) * factor) if isinstance(one, float) else no_formula(one) for one, factor in zip(row, factors)]
+                writer.writerows([[repr(float(one) * factor) if isinstance(one, float) else no_formula(one)
+                                   for one, factor in zip(row, factors)]
                                   for row in rows])
 
     def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
@@ -126,7 +128,8 @@ class CommandOutput:
 
 
 def no_formula(cell: Any) -> Any:
-    """A cell of a CSV file. Spreadsheets compute a text that begins with = + - @ or a control character; an apostrophe before it makes it text.
+    """A cell of a CSV file. Spreadsheets compute a text that begins with = + - @ or a control character; an apostrophe
+    before it makes it text.
     A number with its unit, as "-5 mm", is no formula."""
     return f"'{cell}" if isinstance(cell, str) and _FORMULA.match(cell) and not _AMOUNT.fullmatch(cell) else cell
 
@@ -137,8 +140,10 @@ def note_bounces(sim: Any, out: CommandOutput) -> None:
     out.summary["run"]["bounces"] = bounces
     if bounces:
         out.note_text(
-            phrase("run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
-                   " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
+            phrase("run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after "
+                   "they"
+                   " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again "
+                   "with half"
                    " the step and compare", bounces=bounces))
 
 
@@ -146,7 +151,8 @@ def note_steps(notes: dict[Status, str], out: CommandOutput) -> None:
     """A note for each reason for which steps of a run are less accurate than the tolerances."""
     for status in INACCURATE:
         if status in notes:
-            out.note_text(out.units.sentence(phrase("{analysis}: {reason}", analysis="run", reason=Foreign(notes[status]))))
+            out.note_text(out.units.sentence(phrase("{analysis}: {reason}", analysis="run",
+                                                    reason=Foreign(notes[status]))))
 
 
 def key_of(name: str, unit: str) -> str:
@@ -165,7 +171,8 @@ def finite(value: Any) -> Any:
 
 def record(struct: Any) -> dict[str, Any]:
     """A struct as plain Python for the summary."""
-    return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))
+    return {key: value for key, value in struct.describe(every=True).items()
+            if isinstance(value, (int, float, list, str))
             and not (isinstance(value, list) and value and not isinstance(value[0], (int, float)))}
 
 
@@ -174,9 +181,10 @@ def file_name(name: str) -> str:
     return clean_name(name)
 
 
-# ---- Options ----------------------------------------------------------------------------------------------------------
+# ---- Options ---------------------------------------------------------------------------------------------------------
 def units_of(options: Any, scene: Scene) -> Units:
-    """The units of the output, of the command line or of the scene. Raises UnknownUnit for outputs without an equivalent."""
+    """The units of the output, of the command line or of the scene. Raises UnknownUnit for outputs without an
+    equivalent."""
     units = Units(options.units or NAMES[scene.results.get("units", 0)])
     if options.command in ("run", "report"):
         for unit in scene.output_units:
@@ -201,12 +209,13 @@ def friction_option(options: Any) -> dict[str, Any]:
     return {"friction": options.friction}
 
 
-# ---- Fatigue of a run -------------------------------------------------------------------------------------------------
+# ---- Fatigue of a run ------------------------------------------------------------------------------------------------
 def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
     """Counters of each string where the scene has [fatigue]; levels of stress up to twice the largest known limit."""
     if "fatigue" not in scene.analyses:
         return {}
-    return {name: sim.string_fatigue(scene.names[name], pipes, **scene.effective("fatigue")) for name, pipes in scene.pipes.items()}
+    return {name: sim.string_fatigue(scene.names[name], pipes, **scene.effective("fatigue"))
+            for name, pipes in scene.pipes.items()}
 
 
 def report_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> dict[str, FatigueResult]:
@@ -218,15 +227,19 @@ def report_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> di
         out.summary.setdefault("fatigue", {})[name] = {
             "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
             "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
-        out.say(phrase("{string}: damage {damage:.3g} in {time:.4g} s at pipe {pipe}, largest range {range}", string=name, damage=found[index].damage,
-                          time=found[index].time, pipe=one.pipes[index], range=out.units.text(found[index].largest_range / 1e6, "MPa")))
+        out.say(phrase("{string}: damage {damage:.3g} in {time:.4g} s at pipe {pipe}, largest range {range}",
+                       string=name, damage=found[index].damage,
+                          time=found[index].time, pipe=one.pipes[index],
+                       range=out.units.text(found[index].largest_range / 1e6, "MPa")))
         clipped = sum(result.clipped for result in found)
         if clipped:
-            out.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too little", string=name,
+            out.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too "
+                                 "little", string=name,
                                     clipped=clipped))
         heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
         out.table(f"fatigue_{file_name(name)}.csv", heads, (
             [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
             for pipe, one in zip(one.pipes, found)))
-        out.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run", out.units))
+        out.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run",
+                                                                                  out.units))
     return worst

@@ -1,4 +1,5 @@
-"""Thrust, pull and torque of all operations by depth against the limits of the rig: how far it reaches with the string."""
+"""Thrust, pull and torque of all operations by depth against the limits of the rig: how far it reaches with the
+string."""
 from __future__ import annotations
 
 import math
@@ -11,7 +12,8 @@ from .operating import Operating
 from .unit_systems import Units
 from .verdict import shown
 
-QUANTITIES = (("push", "thrust", "N"), ("pull", "pull", "N"), ("torque", "torque", "N m"))  #: key of [limits], word, unit
+#: key of [limits], word, unit
+QUANTITIES = (("push", "thrust", "N"), ("pull", "pull", "N"), ("torque", "torque", "N m"))
 NOT_ASSESSED = "not assessed, because the scene has no [limits]"
 LOCKED = "lock-up"
 
@@ -49,7 +51,8 @@ def loads_at(rows: Sequence[Any], words: Sequence[str], block_weight: float) -> 
 
 
 def reach(depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float]) -> Reach | None:
-    """The first limit by rising depth, by straight lines between the depths; None if all loads stay below their limits."""
+    """The first limit by rising depth, by straight lines between the depths; None if all loads stay below their
+    limits."""
     found: list[Reach] = []
     for key, word, _ in QUANTITIES:
         limit = limits.get(key, math.inf)
@@ -72,15 +75,18 @@ def unknown(plan: Operating, limits: Iterable[str]) -> str:
     if given and not plan.weight_on_bit:
         return "drilling is not assessed, because no load on the bit is given; give load in [[bit]], or --weight-on-bit"
     if given - {"push"} and not plan.torque_on_bit:
-        return "the torque of drilling is not assessed, because that of the bit is neither given nor estimated; give --torque-on-bit"
+        return ("the torque of drilling is not assessed, because that of the bit is neither given nor estimated; give "
+                "--torque-on-bit")
     return ""
 
 
-def write(out: CommandOutput, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float], plan: Operating) -> None:
+def write(out: CommandOutput, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]],
+          limits: dict[str, float], plan: Operating) -> None:
     """The table, its last row, and the depth that the rig reaches with this string."""
     given = {key: limits[key] for key, _, _ in QUANTITIES if key in limits}
     if not given:
-        out.say(f"{name}, limits of the rig: " + (NOT_ASSESSED if not limits else NOT_ASSESSED + " of thrust, pull or torque"))
+        out.say(f"{name}, limits of the rig: " + (NOT_ASSESSED if not limits
+                                                  else NOT_ASSESSED + " of thrust, pull or torque"))
         out.summary.setdefault("rig_limits", {})[name] = None
         return
     first = reach(depths, table, given)
@@ -95,22 +101,30 @@ def write(out: CommandOutput, name: str, depths: Sequence[float], table: Sequenc
     for _, word, unit in QUANTITIES:
         heads += [f"{word} [{unit}]", f"{word}: operation", f"{word}: share of the limit [-]"]
     out.table(f"rig_limits_{file_name(name)}.csv", heads, [
-        [depth, *(cell for key, _, _ in QUANTITIES for cell in (loads[key].value, loads[key].operation, loads[key].share(given.get(key))))]
+        [depth, *(cell for key, _, _ in QUANTITIES for cell in (loads[key].value, loads[key].operation,
+                                                                loads[key].share(given.get(key))))]
         for depth, loads in zip(depths, table)])
     out.summary.setdefault("rig_limits", {})[name] = {
-        "reach_m": first.depth if first and first.depth > depths[0] else None, "first_limit": first.word if first else None,
-        "assessed_to_m": depths[-1], "drilling_assessed": not missing, "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
+        "reach_m": first.depth if first and first.depth > depths[0] else None, "first_limit": first.word if first
+        else None,
+        "assessed_to_m": depths[-1], "drilling_assessed": not missing,
+        "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
 
 
-def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None, units: Units) -> str:
+def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None,
+          units: Units) -> str:
     if first is not None and first.depth <= depths[0]:
-        return f"exceeded at {units.text(depths[0], 'm')}, the first depth: {_cause(first)}; choose smaller --depths to find the reach"
+        return (f"exceeded at {units.text(depths[0], 'm')}, the first depth: {_cause(first)}; choose smaller --depths "
+                "to find the reach")
     if first is not None:
         return f"this rig reaches {units.text(first.depth, 'm')}: {_cause(first)}"
-    shares = {word: max(((loads[key].share(given[key]), depth, loads[key]) for depth, loads in zip(depths, table)), key=lambda one: one[0])
+    shares = {word: max(((loads[key].share(given[key]), depth, loads[key]) for depth, loads in zip(depths, table)),
+                        key=lambda one: one[0])
               for key, word, _ in QUANTITIES if key in given}
-    texts = [f"{word} {shown(load.value, 'N m' if word == 'torque' else 'N', units)}, {100.0 * share:.0f} % of the limit"
-             + (f" ({load.operation} at {units.text(depth, 'm')})" if load.operation else "") for word, (share, depth, load) in shares.items()]
+    texts = [f"{word} {shown(load.value, 'N m' if word == 'torque' else 'N', units)}, {100.0 * share:.0f} % of the "
+             "limit"
+             + (f" ({load.operation} at {units.text(depth, 'm')})" if load.operation else "")
+             for word, (share, depth, load) in shares.items()]
     return f"not reached down to {units.text(depths[-1], 'm')}: " + "; ".join(texts)
 
 

@@ -1,5 +1,5 @@
-"""The torque at the rig that keeps a string turning whose drive gives a torque, not a speed: a steady rotation needs as much as friction
-takes from it (eq:sliding.state), independent of the time function of the drive."""
+"""The torque at the rig that keeps a string turning whose drive gives a torque, not a speed: a steady rotation needs as
+much as friction takes from it (eq:sliding.state), independent of the time function of the drive."""
 from __future__ import annotations
 
 from typing import Any, cast
@@ -35,19 +35,24 @@ def _changed(scene: Scene, drive: int, change: Any) -> Calls:
         number += name == "add_drive"
         if name == "add_drive" and number == drive:
             arguments = (change(arguments[0]),)
-        if name == "add_input" and _is_part(arguments[0].get("part"), enums.PART_DRIVE) and number_of(arguments[0]["part"]) == drive:
+        if name == "add_input" and _is_part(arguments[0].get("part"),
+                                            enums.PART_DRIVE) and number_of(arguments[0]["part"]) == drive:
             continue
         calls.append((name, arguments))
     return calls
 
 
 def needed(scene: Scene, drive: int, static: dict[str, Any]) -> float:
-    """[N m] The torque of the drive in the static state `static`, if it held the angle. Raises Error where there is no such state."""
-    holding = with_time_functions(with_calls(scene, _changed(scene, drive, lambda fields: {key: fields[key] for key in HOLDING if key in fields})),
+    """[N m] The torque of the drive in the static state `static`, if it held the angle. Raises Error where there is no
+    such state."""
+    holding = with_time_functions(with_calls(scene, _changed(scene, drive,
+                                                             lambda fields: {key: fields[key]
+                                                                             for key in HOLDING if key in fields})),
                               {number_of(_fields(scene, drive)["time_function"]): [{"h0": 0.0}]})
     with holding.new_sim() as sim:
         sim.static(**static)
-        return float(sim.drive(next(cast(DriveId, one) for one in holding.model.ids if _is_part(one, enums.PART_DRIVE) and number_of(one) == drive)).force)
+        return float(sim.drive(next(cast(DriveId, one) for one in holding.model.ids if _is_part(one, enums.PART_DRIVE)
+                                    and number_of(one) == drive)).force)
 
 
 def _fields(scene: Scene, drive: int) -> Any:
@@ -55,7 +60,8 @@ def _fields(scene: Scene, drive: int) -> Any:
 
 
 def balanced(scene: Scene, static: dict[str, Any]) -> tuple[Scene, float | None]:
-    """The scene whose drive gives the torque of the steady rotation of `static` (slip_rotation), and that torque [N m]. The scene itself and
+    """The scene whose drive gives the torque of the steady rotation of `static` (slip_rotation), and that torque [N m].
+    The scene itself and
     None where the rotation is prescribed, nothing turns it, or the held string has no such state either."""
     drive = torque_drive(scene)
     if drive is None or not static.get("slip_rotation", 0.0):

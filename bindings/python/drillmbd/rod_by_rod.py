@@ -1,5 +1,6 @@
-"""Rods added one by one at the rig: thrust, pull, torque and the torque that the joint just made up carries, for each number of rods. The
-engine is that of torque-drag, the soft string of the rods that are in the hole, at the depth that they reach."""
+"""Rods added one by one at the rig: thrust, pull, torque and the torque that the joint just made up carries, for each
+number of rods. The engine is that of torque-drag, the soft string of the rods that are in the hole, at the depth that
+they reach."""
 from __future__ import annotations
 
 import math
@@ -30,7 +31,8 @@ class Row:
 
     @property
     def make_up(self) -> float:
-        """[N m] The largest torque at the rig, where the last joint is: it is made up with more, or turns on in the hole."""
+        """[N m] The largest torque at the rig, where the last joint is: it is made up with more, or turns on in the
+        hole."""
         return self.loads["torque"].value
 
     @property
@@ -42,7 +44,8 @@ class Row:
         """The largest share of a limit; infinite where the string locks up, NaN without limits."""
         if self.locked:
             return math.inf
-        found = [self.make_up / limit if key == MAKE_UP else self.loads[key].share(limit) for key, limit in limits.items()]
+        found = [self.make_up / limit if key == MAKE_UP else self.loads[key].share(limit)
+                 for key, limit in limits.items()]
         return max(found, default=math.nan)
 
     def verdict(self, limits: dict[str, float]) -> str:
@@ -63,7 +66,8 @@ def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
             raise Usage(f"--make-up {options.make_up}: must be > 0")
     for text in settings.notes:
         out.say(text)
-    out.say("engine: the soft string of torque-drag, without bending stiffness and vibration; the last rods of the scene go into the hole first")
+    out.say("engine: the soft string of torque-drag, without bending stiffness and vibration; the last rods of the "
+            "scene go into the hole first")
     out.summary["rod_by_rod"] = {}
     with scene.new_sim() as sim:
         for name in scene.pipes:
@@ -71,7 +75,8 @@ def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
             last = depths_of(sim, string, "1")[0]
             depths = depths_of_rods(lengths_of(scene, string), last)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
-            rows = [Row(number + 1, depth, loads_at(one, list(WORDS.values()), settings.block_weight), unknown(settings.plan, limits))
+            rows = [Row(number + 1, depth, loads_at(one, list(WORDS.values()), settings.block_weight),
+                        unknown(settings.plan, limits))
                     for number, (depth, one) in enumerate(zip(depths, found.rows))]
             _write(out, name, rows, limits)
     return out.finish()
@@ -82,13 +87,15 @@ def lengths_of(scene: Scene, string: Any) -> list[float]:
     from ._structs import PipeDef
     found: list[float] = []
     for name, arguments in scene.model.calls:
-        if name == "add_pipes" and arguments[1].get("string") and number_of(arguments[1]["string"]) == number_of(string):
+        if (name == "add_pipes" and arguments[1].get("string")
+            and number_of(arguments[1]["string"]) == number_of(string)):
             found += [float(arguments[1].get("length", PipeDef().length))] * int(arguments[0])
     return found
 
 
 def depths_of_rods(lengths: list[float], last: float) -> list[float]:
-    """[m] Depths of the bit with one rod, two, ... and all of them, at the last depth. The rods at the bit are the first ones in."""
+    """[m] Depths of the bit with one rod, two, ... and all of them, at the last depth. The rods at the bit are the
+    first ones in."""
     below, found = 0.0, []
     begin = last - sum(lengths)
     for length in reversed(lengths):
@@ -103,7 +110,8 @@ def _write(out: CommandOutput, name: str, rows: list[Row], limits: dict[str, flo
     units = out.units
     listed = sorted({round(i * (len(rows) - 1) / (MOST_LINES - 1)) for i in range(MOST_LINES)})
     for row in (rows[i] for i in listed):
-        out.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: {_loads(row, units)}, {row.verdict(limits)}")
+        out.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: "
+                f"{_loads(row, units)}, {row.verdict(limits)}")
     out.say(f"{name}: {_reach(rows, limits, units)}")
     if rows[0].unknown:
         out.say(f"{name}, {rows[0].unknown}")
@@ -113,12 +121,15 @@ def _write(out: CommandOutput, name: str, rows: list[Row], limits: dict[str, flo
         if key not in limits:
             out.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
     out.table(f"rods_{file_name(name)}.csv", heads(limits), [
-        [row.rods, row.depth, *(cell for key, _, _ in QUANTITIES for cell in (row.loads[key].value, row.loads[key].operation)), row.make_up,
+        [row.rods, row.depth,
+         *(cell for key, _, _ in QUANTITIES for cell in (row.loads[key].value, row.loads[key].operation)), row.make_up,
          row.share(limits), row.verdict(limits)] for row in rows])
     out.summary["rod_by_rod"][name] = {
         "rods_within_limits": within(rows, limits), "limits": dict(limits), "rods": [
-            {"rods": row.rods, "depth_m": row.depth, "push_N": row.loads["push"].value, "pull_N": row.loads["pull"].value,
-             "torque_N_m": row.loads["torque"].value, "make_up_above_N_m": row.make_up, "share": row.share(limits), "verdict": row.verdict(limits)}
+            {"rods": row.rods, "depth_m": row.depth, "push_N": row.loads["push"].value,
+             "pull_N": row.loads["pull"].value,
+             "torque_N_m": row.loads["torque"].value, "make_up_above_N_m": row.make_up, "share": row.share(limits),
+             "verdict": row.verdict(limits)}
             for row in rows]}
     out.picture(f"rods_{file_name(name)}.png", lambda plots: plots.rods(rows, limits, name, units))
 
@@ -132,7 +143,8 @@ def heads(limits: dict[str, float]) -> list[str]:
 
 
 def within(rows: list[Row], limits: dict[str, float]) -> int | None:
-    """The number of rods up to which no limit is exceeded and nothing locks up at a smaller depth; None without limits or lock-up."""
+    """The number of rods up to which no limit is exceeded and nothing locks up at a smaller depth; None without limits
+    or lock-up."""
     over = next((row.rods for row in rows if row.share(limits) > 1.0), None)
     return over - 1 if over is not None else rows[-1].rods if limits else None
 
@@ -152,11 +164,14 @@ def _reach(rows: list[Row], limits: dict[str, float], units: Units) -> str:
     if count is None:
         return "number of rods within limits: not assessed, because neither [limits] nor --make-up is given"
     if count == len(rows):
-        return f"all {count} rods stay within the given limits, {100.0 * max(row.share(limits) for row in rows):.0f} % of them at most"
+        return (f"all {count} rods stay within the given limits, {100.0 * max(row.share(limits) for row in rows):.0f} "
+                "% of them at most")
     causes = [word for key, word in (*((key, word) for key, word, _ in QUANTITIES), (MAKE_UP, "make-up torque"))
-              if key in limits and (rows[count].make_up if key == MAKE_UP else rows[count].loads[key].value) > limits[key]]
+              if key in limits and (rows[count].make_up if key == MAKE_UP else rows[count].loads[key].value)
+              > limits[key]]
     if rows[count].locked:
-        return (f"{count} rods stay within the given limits; with rod {count + 1} the string locks up ({rows[count].loads['push'].operation}), no thrust "
+        return (f"{count} rods stay within the given limits; with rod {count + 1} the string locks up "
+                f"({rows[count].loads['push'].operation}), no thrust "
                 "moves it")
     depth = f", bit at {units.text(rows[count - 1].depth, 'm')}" if count else ""
     return f"{count} rods stay within the given limits{depth}; rod {count + 1} exceeds {' and '.join(causes)}"

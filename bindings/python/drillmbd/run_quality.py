@@ -1,4 +1,5 @@
-"""Quality of a run in time: the energy error of its first and last tenth, and the last part again with half the step."""
+"""Quality of a run in time: the energy error of its first and last tenth, and the last part again with half the
+step."""
 from __future__ import annotations
 
 import math
@@ -16,10 +17,12 @@ from .sim import Sim
 
 PART, LEAST_STEPS = 0.1, 20   #: of the run that is verified; it has as many steps at least
 NOTABLE = 0.05                #: difference of largest values, of the larger one, above which a note is made
-GROWS, SMALL = 10.0, 1e-4     #: energy error of the last tenth over that of the first, and over the energy, above which a note is made
+#: energy error of the last tenth over that of the first, and over the energy, above which a note is made
+GROWS, SMALL = 10.0, 1e-4
 LARGE = 0.05                  #: energy error over the energy, above which the run is said to be unreliable
 MOST_NUMBERS = 50_000_000
-SLOW_WHIRL = 0.69             #: error of the rate of slow whirl over (W h)^2, W the speed of rotation and h the step (physics_rotor_on_joint)
+#: error of the rate of slow whirl over (W h)^2, W the speed of rotation and h the step (physics_rotor_on_joint)
+SLOW_WHIRL = 0.69
 TURN_NOTABLE = 0.12           #: [rad] W h above which a note is made: an error of 1 %
 SAMPLES = 50                  #: of the rotation of the strings in a run
 
@@ -52,14 +55,15 @@ class FirstTenth:
 
 
 class TurnAStep:
-    """The largest rotation of each string in a step, with which the error of slow whirl and precession grows. Steps that follow an error
-    and strings that move along their axis only have none."""
+    """The largest rotation of each string in a step, with which the error of slow whirl and precession grows. Steps
+    that follow an error and strings that move along their axis only have none."""
 
     def __init__(self, scene: Scene, sim: Sim, end: float, step: float) -> None:
         info = scene.model.info()
         bends = info.degrees_of_freedom > 2 * info.nodes
         self.sim, self.step, self.interval = sim, step, max(step, (end - sim.time) / SAMPLES)
-        self.places = {name: station(scene.names[name], pipes - 1, 1.0) for name, pipes in scene.pipes.items()} if bends else {}
+        self.places = {name: station(scene.names[name], pipes - 1, 1.0)
+                       for name, pipes in scene.pipes.items()} if bends else {}
         self.most = dict.fromkeys(self.places, 0.0)   #: [rad/s]
         self.time, self.turns = sim.time, self._turns()
 
@@ -93,8 +97,10 @@ class TurnAStep:
         for name, speed in self.most.items():
             turn = speed * self.step
             if turn > TURN_NOTABLE:
-                out.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off by up to "
-                                 f"{min(100.0, 100.0 * SLOW_WHIRL * turn * turn):.2g} %; a step of {1e3 * TURN_NOTABLE / speed:.2g} ms gives 1 %. "
+                out.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off "
+                              "by up to "
+                                 f"{min(100.0, 100.0 * SLOW_WHIRL * turn * turn):.2g} %; a step of "
+                                 f"{1e3 * TURN_NOTABLE / speed:.2g} ms gives 1 %. "
                                  "Rotation about a fixed axis is not affected")
 
 
@@ -111,7 +117,8 @@ class LastPart:
         self.begin = end - self.length
         self.rows = int(self.length / step + 3)
         if 2 * self.rows * (1 + len(scene.outputs)) > MOST_NUMBERS:
-            raise Usage(f"--verify: {2 * self.rows} rows of {1 + len(scene.outputs)} numbers are more than {MOST_NUMBERS}; give a longer step")
+            raise Usage(f"--verify: {2 * self.rows} rows of {1 + len(scene.outputs)} numbers are more than "
+                        f"{MOST_NUMBERS}; give a longer step")
         self.state: bytes | None = None
         self.recorder = self._recorder(self.rows)
         if self.length == end - sim.time:
@@ -142,13 +149,14 @@ class LastPart:
         self.recorder.take_up(kept["rows"])
 
     def verify(self, out: CommandOutput) -> None:
-        """Runs the part again with half the step, and compares the largest magnitude of each output. The sim is at the end of the run
-        before and after."""
+        """Runs the part again with half the step, and compares the largest magnitude of each output. The sim is at the
+        end of the run before and after."""
         assert self.state is not None
         self.sim.restore(self.state)
         again = self._recorder(2 * self.rows + 3)
         self.sim.run_noting(self.end, 0.5 * self.step, again)
-        out.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
+        out.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, "
+                f"{500.0 * self.step:g} ms; largest magnitudes:")
         told: dict[str, Any] = {}
         changed: list[str] = []
         units = out.units
@@ -159,18 +167,22 @@ class LastPart:
             change = (second - first) / larger if larger > 0.0 else 0.0
             told[name] = {"step": first, "half_step": second, "change": change}
             head, factor = heads[column], units.factor_of(heads[column])
-            out.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} ({100.0 * change:+.2g} %)")
+            out.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} "
+                    f"({100.0 * change:+.2g} %)")
             if abs(change) > NOTABLE:
                 changed.append(name)
-        out.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step, "outputs": told}
+        out.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step,
+                                       "outputs": told}
         if changed:
-            out.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more than {100.0 * NOTABLE:g} %; run "
+            out.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more "
+                          f"than {100.0 * NOTABLE:g} %; run "
                              "with a shorter step and compare again")
 
 
 def bent_elements(sim: Sim, out: CommandOutput, state: str) -> None:
-    """A note if elements that were described straight are bent by more than 0.01 rad in this state, which the mass of a straight element
-    does not follow: the warning of the model check, for the state that was reached instead of the first one."""
+    """A note if elements that were described straight are bent by more than 0.01 rad in this state, which the mass of a
+    straight element does not follow: the warning of the model check, for the state that was reached instead of the
+    first one."""
     for text in of_model(sim):
         if "with the mass of a straight one" in text:
             out.note_text(Foreign(f"{state}: {text}"))
@@ -182,13 +194,15 @@ def energy_error(sim: Sim, out: CommandOutput, first: FirstTenth, complete: bool
     out.summary.update(energy_error=energy.error, energy_error_growth=energy.growth)
     text = f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present"
     if not abs(energy.error) <= LARGE:  # also NaN
-        out.note_text("the energy error is larger than 5 % of the energies of the run: its results are not reliable; run with a tenth of the step and compare")
+        out.note_text("the energy error is larger than 5 % of the energies of the run: its results are not reliable; "
+                      "run with a tenth of the step and compare")
     if complete and first.balance is not None and energy.scale > 0.0:
         begin = abs(first.balance) / energy.scale
         out.summary["energy_error_first_tenth"] = begin
         text += f"; its change in the first tenth of the run {begin:.1e}, in the last tenth {abs(energy.growth):.1e}"
         if abs(energy.growth) > max(SMALL, GROWS * begin):
-            out.note_text("the energy error grows faster at the end of the run than at its beginning: the steps do not resolve the motion there; "
+            out.note_text("the energy error grows faster at the end of the run than at its beginning: the steps do not "
+                          "resolve the motion there; "
                              "run with half the step and compare")
     else:
         text += f", of which {energy.growth:.1e} in the last tenth of the run"

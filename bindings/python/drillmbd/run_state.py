@@ -1,5 +1,5 @@
-"""The state of a run in time, kept in the folder of its results, from which the same command continues after Ctrl-C, or after the machine
-went down. It is written whole or not at all, and is gone when the run is complete."""
+"""The state of a run in time, kept in the folder of its results, from which the same command continues after Ctrl-C, or
+after the machine went down. It is written whole or not at all, and is gone when the run is complete."""
 from __future__ import annotations
 
 import hashlib
@@ -95,7 +95,8 @@ class RunState:
             scalars = _unpacked(meta["scalars"], arrays)
         except (Error, KeyError, ValueError, TypeError) as error:
             raise Usage(f"{self.path}: cannot be read ({error}); remove it, and the run starts again") from None
-        self.out.note_text(phrase("the run continues at {time:g} s, up to which it was computed before; remove {file} to start again", time=self.sim.time,
+        self.out.note_text(phrase("the run continues at {time:g} s, up to which it was computed before; remove {file} "
+                                  "to start again", time=self.sim.time,
                                      file=str(self.path)))
         return scalars
 
@@ -113,7 +114,8 @@ class RunState:
             return None
         if same:
             return meta, arrays
-        self._said(phrase("{file} is of another scene, other options or another version; the run starts again", file=str(self.path)))
+        self._said(phrase("{file} is of another scene, other options or another version; the run starts again",
+                          file=str(self.path)))
         return None
 
     def _said(self, text: Phrase) -> None:
@@ -125,7 +127,8 @@ class RunState:
         if self.path is None or INTERRUPTS.torn:
             return False
         arrays: dict[str, Any] = {"sim": _bytes(self.sim.snapshot())}
-        meta = {"identity": self.identity, "parts": {name: _packed(part.keep(), f"{name}/", arrays) for name, part in self.parts.items()},
+        meta = {"identity": self.identity, "parts": {name: _packed(part.keep(), f"{name}/", arrays)
+                                                     for name, part in self.parts.items()},
                 "scalars": _packed(scalars, "scalars/", arrays)}
         if sum(one.nbytes for one in arrays.values()) > most:
             return False
@@ -147,8 +150,10 @@ class RunState:
     def stopped(self, end: float, scalars: dict[str, Any]) -> None:
         """After Ctrl-C: stores the state, and says how to continue."""
         time_, kept = self.sim.time, self.keep(scalars)
-        text = (phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command continues from there", time=time_, end=end) if kept else
-                phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command starts again", time=time_, end=end))
+        text = (phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command continues from there",
+                       time=time_, end=end) if kept else
+                phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command starts again", time=time_,
+                       end=end))
         self.out.stopped(text)
 
     def done(self) -> None:
@@ -183,7 +188,8 @@ def _packed(values: dict[str, Any], prefix: str, arrays: dict[str, Any]) -> dict
 
 
 def _unpacked(packed: dict[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
-    return {name: one["value"] if "value" in one else arrays[one["array"]].tobytes() if one["bytes"] else arrays[one["array"]]
+    return {name: one["value"] if "value" in one else arrays[one["array"]].tobytes() if one["bytes"]
+            else arrays[one["array"]]
             for name, one in packed.items()}
 
 

@@ -19,7 +19,8 @@ Answer = Callable[[Scene, CommandOutput, Any], int]
 
 
 class Meter:
-    """A line on the terminal with the part of a long analysis that is done. It appears after a while, and nowhere but on a terminal."""
+    """A line on the terminal with the part of a long analysis that is done. It appears after a while, and nowhere but
+    on a terminal."""
 
     AFTER, EVERY = 1.0, 0.3  #: [s]
 

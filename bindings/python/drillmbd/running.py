@@ -16,14 +16,15 @@ from .enums import NOTE_CANCELLED, NOTE_FULL, NOTE_STOPPED, NOTE_TOLERANCE, NOTE
 if TYPE_CHECKING:
     from .sim import Sim
 
-LONGEST = 0.05  #: [s] by the clock that one call of several steps lasts at most, about: so long Ctrl-C and progress functions wait
+#: [s] by the clock that one call of several steps lasts at most, about: so long Ctrl-C and progress functions wait
+LONGEST = 0.05
 INACCURATE = (NOTE_WORK_LIMITED, NOTE_TOLERANCE)  #: notes of steps that are less accurate than asked for
 ROUNDING = 1e-6  #: of a step, by which times of samples may be off
 
 
 class Taker(Protocol):
-    """Takes a sample after each step: Fatigue, StringFatigue, Window. One that has due() -> float, the time [s] of the sim before which
-    take() does nothing, is called from that time on only, and steps before it are made in one call."""
+    """Takes a sample after each step: Fatigue, StringFatigue, Window. One that has due() -> float, the time [s] of the
+    sim before which take() does nothing, is called from that time on only, and steps before it are made in one call."""
 
     def take(self) -> int:
         """A sample; returns the status."""
@@ -161,16 +162,18 @@ def warn_of(at: Progress) -> None:
 
 
 def sample_due(interval: float, first: float, last: float) -> float:
-    """[s] of the next row of a recorder: rows belong to whole multiples of the interval since the first one (dmb_sample_is_due)."""
+    """[s] of the next row of a recorder: rows belong to whole multiples of the interval since the first one
+    (dmb_sample_is_due)."""
     return first + (math.floor((last - first) / interval + ROUNDING) + 1) * interval
 
 
 # ---- The loop --------------------------------------------------------------------------------------------------------
 class Loop:
-    """A run in time. Equal steps are made many in a call: up to the next sample, or until the call lasts LONGEST. The bits of the results
-    do not depend on that."""
+    """A run in time. Equal steps are made many in a call: up to the next sample, or until the call lasts LONGEST. The
+    bits of the results do not depend on that."""
 
-    def __init__(self, sim: Sim, lengths: Lengths, takers: list[Taker], tell: Callable[[Progress], Any] | None, every: float) -> None:
+    def __init__(self, sim: Sim, lengths: Lengths, takers: list[Taker], tell: Callable[[Progress], Any] | None,
+                 every: float) -> None:
         self.sim, self.lengths, self.takers, self.tell = sim, lengths, takers, tell
         self.every, self.longest = every, min(LONGEST, every) if tell else LONGEST
         self.most = 1  # steps in a call

@@ -1,7 +1,7 @@
 """Friction coefficients of the sections of a hole (casing, open hole, ...) that fit measurements at several depths.
 
-A load at one depth depends on all sections above it: the coefficients are found together by least squares (Gauss and Newton), with
-the confidence of each from the scatter and the covariance of the fit, of Student's distribution."""
+A load at one depth depends on all sections above it: the coefficients are found together by least squares (Gauss and
+Newton), with the confidence of each from the scatter and the covariance of the fit, of Student's distribution."""
 from __future__ import annotations
 
 import math
@@ -40,7 +40,8 @@ class Found:
 
 
 def sections_of(text: str) -> list[Section]:
-    """The wall above the first section, and each section; none of holes without sections or with values in lines between them."""
+    """The wall above the first section, and each section; none of holes without sections or with values in lines
+    between them."""
     hole = tomllib.loads(text).get("hole", {})
     parts = hole.get("section", [])
     if not parts or any(one.get("shape", "step") not in ("step", 0) for one in parts):
@@ -50,14 +51,16 @@ def sections_of(text: str) -> list[Section]:
     for number, one in enumerate(parts):
         own = float(one.get("mu_dynamic", -1.0))
         found.append(Section(str(one.get("name") or f"section {number + 1}"), parse(one["depth"], "m"),
-                             (f"hole.section[{number}].mu_static", f"hole.section[{number}].mu_dynamic"), own if own >= 0.0 else usual))
+                             (f"hole.section[{number}].mu_static", f"hole.section[{number}].mu_dynamic"),
+                             own if own >= 0.0 else usual))
     return found
 
 
 class Model:
     """The soft string in a hole with given coefficients of its sections."""
 
-    def __init__(self, text: str, sections: list[Section], string: str, series: Series, operation: Any, block_weight: float) -> None:
+    def __init__(self, text: str, sections: list[Section], string: str, series: Series, operation: Any,
+                 block_weight: float) -> None:
         self.text, self.sections, self.string, self.series = text, sections, string, series
         self.operation, self.block_weight = operation, block_weight
 
@@ -83,23 +86,29 @@ def fit(at: Callable[[list[float]], list[float]], values: list[float], start: li
         if not all(map(math.isfinite, here)):
             frictions = [0.8 * one for one in frictions]  # the string locks up
             continue
-        slopes = np.array([[(b - a) / DIFFERENCE for a, b in zip(here, at([*frictions[:k], one + DIFFERENCE, *frictions[k + 1:]]))]
+        slopes = np.array([[(b - a) / DIFFERENCE
+                            for a, b in zip(here, at([*frictions[:k], one + DIFFERENCE, *frictions[k + 1:]]))]
                            for k, one in enumerate(frictions)]).T
         sizes = np.linalg.svd(slopes, compute_uv=False) if np.isfinite(slopes).all() else np.zeros(1)
         if not sizes[-1] > SINGULAR * sizes[0]:
-            return Found(frictions, [], reason="the measurements do not separate the sections; more depths within each of them would")
+            return Found(frictions, [],
+                         reason="the measurements do not separate the sections; more depths within each of them would")
         rest = np.array(values) - np.array(here)
         change = np.linalg.lstsq(slopes, rest, rcond=None)[0]
-        new = [min(MOST_FRICTION, max(0.0, one + float(min(0.5, max(-0.5, step))))) for one, step in zip(frictions, change)]
+        new = [min(MOST_FRICTION, max(0.0, one + float(min(0.5, max(-0.5, step)))))
+               for one, step in zip(frictions, change)]
         moved = max(abs(a - b) for a, b in zip(new, frictions))
         frictions = new
         if moved <= TOLERANCE:
             break
     else:
         return Found(frictions, [], reason="the fit does not converge; examine the block weight, the sign and the unit")
-    outside = [one for one, step in zip(frictions, change) if (one <= 0.0 and step < -TOLERANCE) or (one >= MOST_FRICTION and step > TOLERANCE)]
+    outside = [one for one, step in zip(frictions, change) if (one <= 0.0 and step < -TOLERANCE)
+               or (one >= MOST_FRICTION and step > TOLERANCE)]
     if outside:
-        return Found(frictions, [], reason="no coefficients between 0 and 10 fit best; examine the block weight, the sign and the unit")
+        return Found(frictions, [],
+                     reason="no coefficients between 0 and 10 fit best; examine the block weight, the sign and the "
+                            "unit")
     free = len(values) - len(frictions)
     variance = float(rest @ rest) / free
     quantile = float(need("scipy.stats").t.isf(0.5 * (1.0 - CONFIDENCE), free))
@@ -108,7 +117,8 @@ def fit(at: Callable[[list[float]], list[float]], values: list[float], start: li
                  math.sqrt(float(rest @ rest) / len(values)))
 
 
-def compare(scene: Scene, name: str, out: CommandOutput, series: dict[str, Series], operations: list[Any], block_weight: float) -> None:
+def compare(scene: Scene, name: str, out: CommandOutput, series: dict[str, Series], operations: list[Any],
+            block_weight: float) -> None:
     """A line for each series that reaches into more than one section."""
     try:
         text = saves(scene, False)
@@ -124,7 +134,8 @@ def compare(scene: Scene, name: str, out: CommandOutput, series: dict[str, Serie
         found = fit(model.at, one.values, [part.friction for part in reached])
         results[word] = {"reason": found.reason or None, "scatter": finite(found.scatter), "sections": [
             {"name": part.name, "from_m": part.top if math.isfinite(part.top) else None,
-             "friction": None if found.reason else found.frictions[k], "half_width_95": None if found.reason else found.half_widths[k]}
+             "friction": None if found.reason else found.frictions[k], "half_width_95": None if found.reason
+             else found.half_widths[k]}
             for k, part in enumerate(reached)]}
         out.say(f"{name}, measured {label(word)} by section: {_text(reached, found, out.units)}")
     if results:
@@ -136,6 +147,8 @@ def _text(sections: list[Section], found: Found, units: Units) -> str:
         return f"friction not assessed, because {found.reason}"
     parts = []
     for section, friction, half in zip(sections, found.frictions, found.half_widths):
-        where = section.name if not math.isfinite(section.top) else f"{section.name} from {units.text(section.top, 'm')}"
-        parts.append(f"{where} friction {friction:.4g} (95 % confidence {max(0.0, friction - (half or 0.0)):.3g} .. {friction + (half or 0.0):.3g})")
+        where = section.name if not math.isfinite(section.top) else \
+            f"{section.name} from {units.text(section.top, 'm')}"
+        parts.append(f"{where} friction {friction:.4g} (95 % confidence {max(0.0, friction - (half or 0.0)):.3g} .. "
+                     f"{friction + (half or 0.0):.3g})")
     return ", ".join(parts)

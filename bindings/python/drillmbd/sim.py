@@ -13,8 +13,10 @@ from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
 from ._library import lib as _lib
 from ._parts import closed, index_of, is_closed
 from ._progress import INTERRUPTS, Teller
-from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Excitation, JointState,
-                       Momentum, Motion, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
+from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id,
+                       Excitation, JointState,
+                       Momentum, Motion, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics,
+                       StuckState,
                        StepReport, WindowOptions)
 from ._structs import BitId, DriveId, EventReport, JointId, SpringId, StringId, StuckId
 from ._values import real, reals, refuse_type, refuse_value, whole
@@ -77,7 +79,8 @@ class Sim(Handle, analysis.Analyses):
         return f"<Sim of {sum(self._parts.pipes.values())} pipes at {self.time:g} s, {self.statistics().steps} steps>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("a Sim does not pickle: pickle its model and sim.snapshot(), which a sim of that model restores")
+        raise TypeError("a Sim does not pickle: pickle its model and sim.snapshot(), which a sim of that model "
+                        "restores")
 
     @property
     def message(self) -> str:
@@ -94,8 +97,8 @@ class Sim(Handle, analysis.Analyses):
     @property
     @mirrors("dmb_sim_set_progress")
     def on_progress(self) -> Callable[[float], Any] | None:
-        """function(fraction): called with 0 .. 1 at bounded intervals of step, advance and analyses. It ends the call by
-        returning True (ERR_CANCELLED; advance returns NOTE_CANCELLED) or by raising, which comes out of the call.
+        """function(fraction): called with 0 .. 1 at bounded intervals of step, advance and analyses. It ends the call
+        by returning True (ERR_CANCELLED; advance returns NOTE_CANCELLED) or by raising, which comes out of the call.
         None: no callback (default)."""
         return self._teller.function
 
@@ -106,9 +109,9 @@ class Sim(Handle, analysis.Analyses):
     @property
     @mirrors("dmb_sim_set_on_step")
     def on_step(self) -> Callable[[float], Any] | None:
-        """function(time): called after each accepted step of step, steps, advance, advance_to_event and run; it may query and
-        record the sim. It ends the call by returning True (NOTE_STOPPED before its end) or by raising, which comes out of
-        the call. None: no callback (default)."""
+        """function(time): called after each accepted step of step, steps, advance, advance_to_event and run; it may
+        query and record the sim. It ends the call by returning True (NOTE_STOPPED before its end) or by raising, which
+        comes out of the call. None: no callback (default)."""
         return self._teller.on_step
 
     @on_step.setter
@@ -128,7 +131,8 @@ class Sim(Handle, analysis.Analyses):
         report: StepReport = StepReport.blank()
         try:
             if self._scene.references:  # Python's handler would raise where C has called, and be lost there
-                status = self._teller.long_call(self._handle, _step, real(duration, "step", "duration", "s"), byref(report))
+                status = self._teller.long_call(self._handle, _step, real(duration, "step", "duration", "s"),
+                                                byref(report))
             else:
                 status = _step(self._handle, duration, byref(report))
         except ctypes.ArgumentError:
@@ -177,13 +181,13 @@ class Sim(Handle, analysis.Analyses):
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,
             counters: Sequence[Taker] = (), begin: float | None = None) -> Progress:
-        """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
-        a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
-        recorder takes a row after each step, and so do counters: objects with a take(), as fatigue and windows.
-        progress(Progress) is called each `every` seconds by the clock and at the end; True, if it is returned, stops the
-        run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can continue,
-        and the recorder has all rows so far. The result has the notes of all steps; a full recorder, and steps above their
-        tolerance, are a RuntimeWarning too. begin: of a run
+        """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth
+        of a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run.
+        The recorder takes a row after each step, and so do counters: objects with a take(), as fatigue and windows.
+        progress(Progress) is called each `every` seconds by the clock and at the end; True, if it is returned, stops
+        the run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can
+        continue, and the recorder has all rows so far. The result has the notes of all steps; a full recorder, and
+        steps above their tolerance, are a RuntimeWarning too. begin: of a run
         that continues from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
         at = self.run_noting(end, step, recorder, progress, every, counters, begin)
         warn_of(at)
@@ -203,7 +207,8 @@ class Sim(Handle, analysis.Analyses):
         if recorder is not None and len(recorder) == 0:
             recorder.take()
         try:
-            return Loop(self, lengths, takers, bar if bar is not None else progress if callable(progress) else None, every).go()
+            return Loop(self, lengths, takers, bar if bar is not None else progress if callable(progress) else None,
+                        every).go()
         finally:
             if bar is not None:
                 bar.close()
@@ -225,7 +230,8 @@ class Sim(Handle, analysis.Analyses):
     def set_joint(self, joint: JointId | str, state: int) -> int:
         """The joint is JOINT_ACTIVE, JOINT_LOCKED or JOINT_OPEN from now on; returns the status, NOTE_PROJECTED if
         speeds changed."""
-        return self._check(_lib.dmb_sim_set_joint(self._handle, as_id(joint, self._parts, "joint"), whole(state, "joint", "state", 0, 2)))
+        return self._check(_lib.dmb_sim_set_joint(self._handle, as_id(joint, self._parts, "joint"),
+                                                  whole(state, "joint", "state", 0, 2)))
 
     @mirrors("dmb_sim_transfer_state")
     def transfer_state(self, other: Sim) -> int:
@@ -298,7 +304,8 @@ class Sim(Handle, analysis.Analyses):
 
     def motion_at(self, place: Place | Id | str, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
         """The motion of a point `offset` [m] away from a place, in its axes."""
-        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place, self._parts), _offset(offset))
+        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place, self._parts),
+                                   _offset(offset))
         return answer
 
     def rotation(self, place: Place | Id | str) -> float:
@@ -334,7 +341,8 @@ class Sim(Handle, analysis.Analyses):
 
     def kinetic_energy(self, part: Id | str, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""
-        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part, self._parts), whole(pipe, "kinetic energy", "pipe"))
+        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part, self._parts),
+                                whole(pipe, "kinetic energy", "pipe"))
 
     @mirrors("dmb_query_energy")
     def energy(self) -> Energy:
@@ -360,18 +368,21 @@ class Sim(Handle, analysis.Analyses):
 
     def joint(self, joint: JointId | str, frame: int = FRAME_WORLD) -> JointState:
         """Coordinates, rates, reaction [N, N m] and action of a joint, six numbers each."""
-        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), as_id(joint, self._parts, "joint"))
+        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame),
+                                       as_id(joint, self._parts, "joint"))
         return answer
 
     def multipliers(self, part: Id | str) -> list[float]:
         """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
         values, count, part = (c_double * 6)(), c_uint32(), as_id(part, self._parts)
-        self._told(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)), _lib.dmb_query_multipliers, part)
+        self._told(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)), _lib.dmb_query_multipliers,
+                   part)
         return list(values)[:count.value]
 
     def spring(self, spring: SpringId | str) -> SpringState:
         """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
-        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), as_id(spring, self._parts, "spring"))
+        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(),
+                                        as_id(spring, self._parts, "spring"))
         return answer
 
     def stuck(self, stuck: StuckId | str) -> StuckState:
@@ -402,11 +413,12 @@ class Sim(Handle, analysis.Analyses):
 
     @mirrors("dmb_query_output")
     def output(self, quantity: Any, place: Any = None) -> float:
-        """The value of an output by its name or number at a place, or of a part; None: the first string, or none. Place and quantity may
-        stand in the order of a recorder's pair too: output(place, "bit_speed")."""
+        """The value of an output by its name or number at a place, or of a part; None: the first string, or none. Place
+        and quantity may stand in the order of a recorder's pair too: output(place, "bit_speed")."""
         if isinstance(quantity, (Place, Id)):
             quantity, place = place, quantity
-        asked, value = quantity if isinstance(quantity, Output) else output_of((place, quantity), self._parts), c_double()
+        asked, value = (quantity if isinstance(quantity, Output) else output_of((place, quantity), self._parts),
+                        c_double())
         self._check(_lib.dmb_output_check(self._handle, byref(asked), 1))
         self._told(_lib.dmb_query_output(self._handle, byref(asked), byref(value)), _lib.dmb_query_output)
         return value.value
@@ -434,8 +446,8 @@ class Sim(Handle, analysis.Analyses):
         return ProfileRecorder(self, quantities, stations, capacity, interval, string)
 
     def profile(self, string: StringId | str | None = None, pipes: int | None = None, per_pipe: int = 2) -> Profile:
-        """A string (None: the first) from end to end as arrays: poses, forces and contact at `per_pipe` stations of each of its pipes and
-        at its rig end. pipes: their number; left out: as described."""
+        """A string (None: the first) from end to end as arrays: poses, forces and contact at `per_pipe` stations of
+        each of its pipes and at its rig end. pipes: their number; left out: as described."""
         from .profile import profile
         asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
         return profile(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, per_pipe)
@@ -444,8 +456,8 @@ class Sim(Handle, analysis.Analyses):
     def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[Any] = (),
                     options: StateSpaceOptions | None = None, modes: analysis.Modes | None = None,
                     mode_list: Sequence[int] | None = None, **fields: Any) -> StateSpace:
-        """The linearised scene from every Input to every Output as A, B, C, D; with modes reduced to these, or to those of
-        mode_list."""
+        """The linearised scene from every Input to every Output as A, B, C, D; with modes reduced to these, or to those
+        of mode_list."""
         from .state_space import StateSpace
         return StateSpace(self, inputs, outputs, struct(StateSpaceOptions, options, fields), modes, mode_list)
 
@@ -470,7 +482,8 @@ class Sim(Handle, analysis.Analyses):
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:
         """Writes the strings as lines with fields for ParaView."""
-        written(path, self._handle, _lib.dmb_write_vtk_strings(self._handle, whole(per_element, "strings", "per_element", 1),
+        written(path, self._handle, _lib.dmb_write_vtk_strings(self._handle,
+                                                               whole(per_element, "strings", "per_element", 1),
                                                                path_of(path)))
 
 

@@ -1,4 +1,5 @@
-"""Rotary speeds run in time: whether the torque oscillates or the lateral acceleration is large, beside the verdict of the linear analysis."""
+"""Rotary speeds run in time: whether the torque oscillates or the lateral acceleration is large, beside the verdict of
+the linear analysis."""
 from __future__ import annotations
 
 import concurrent.futures
@@ -26,9 +27,11 @@ WINDOW = 4.0            #: [s] that is judged, at least
 REVOLUTIONS = 3         #: in it, at least
 PERIODS = 3             #: of the slowest torsional vibration, fixed at the rig, in it and before it, at least
 SWING = 0.5             #: [-] half the range of the torque over its mean, above which it swings
-GRAVITY = 9.81          #: [m/s2] root mean square of lateral acceleration above which the string leaves the wall by itself
+#: [m/s2] root mean square of lateral acceleration above which the string leaves the wall by itself
+GRAVITY = 9.81
 STEADY, TORQUE, LATERAL, FAILED = "steady", "torque oscillates", "lateral acceleration", "run failed"
-NO_DRIVE = "check in time: not assessed, because no drive turns the string at a speed; give a drive with component = \"rx\""
+NO_DRIVE = ("check in time: not assessed, because no drive turns the string at a speed; give a drive with component = "
+            "\"rx\"")
 
 
 @dataclass
@@ -67,9 +70,11 @@ def ramp(begin: float, value: float) -> list[dict[str, Any]]:
 
 
 def _ramps(scene: Scene, speed: float, turning: int) -> dict[int, list[dict[str, Any]]]:
-    """Segments that replace those of the rotation, the feed and the loads of bits, by the number of the time function."""
+    """Segments that replace those of the rotation, the feed and the loads of bits, by the number of the time
+    function."""
     time_functions = remade.time_functions_of(scene)
-    segments = {one: ramp(RAMP, rotating.extreme(time_functions, one)) for one in rotating.loads_of_bits(scene) if rotating.extreme(time_functions, one)}
+    segments = {one: ramp(RAMP, rotating.extreme(time_functions, one)) for one in rotating.loads_of_bits(scene)
+                if rotating.extreme(time_functions, one)}
     feed = rotating.drive_at_speed(scene, enums.X)
     if feed is not None and rotating.extreme(time_functions, feed):
         segments[feed] = ramp(0.0, rotating.extreme(time_functions, feed))
@@ -78,14 +83,17 @@ def _ramps(scene: Scene, speed: float, turning: int) -> dict[int, list[dict[str,
 
 
 def at_speed(scene: Scene, speed: float, turning: int) -> Scene:
-    """The scene started within RAMP to the rotation and its feed, and then loaded; its other time functions are as described."""
-    return replace(remade.with_time_functions(scene, _ramps(scene, speed, turning)), progress=None, changed=None)  # which other processes do not need
+    """The scene started within RAMP to the rotation and its feed, and then loaded; its other time functions are as
+    described."""
+    # which other processes do not need
+    return replace(remade.with_time_functions(scene, _ramps(scene, speed, turning)), progress=None, changed=None)
 
 
 def oscillation_left_out(scene: Scene, turning: int) -> bool:
     """Whether a time function that ramps replace oscillates."""
     time_functions = remade.time_functions_of(scene)
-    return any(one.get("kind") in OSCILLATING for number in _ramps(scene, 0.0, turning) for one in time_functions[number])
+    return any(one.get("kind") in OSCILLATING for number in _ramps(scene, 0.0, turning)
+               for one in time_functions[number])
 
 
 def places_of(scene: Scene) -> list[Any]:
@@ -121,7 +129,8 @@ def _measured(course: Course, scene: Scene, sim: Any) -> Result:
     torque, lateral = table[:, 1], table[:, 2:].reshape(len(table), len(places), 2)
     mean = float(torque.mean())
     size = numpy.sqrt((lateral ** 2).sum(axis=2).mean(axis=0))
-    return Result(course.speed, mean, float(torque.max() - torque.min()) / 2.0 / abs(mean) if mean else math.nan, float(size.max()))
+    return Result(course.speed, mean, float(torque.max() - torque.min()) / 2.0 / abs(mean) if mean else math.nan,
+                  float(size.max()))
 
 
 # ---- All speeds ------------------------------------------------------------------------------------------------------
@@ -133,12 +142,15 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
         out.summary["speeds_check"] = None
         return
     if oscillation_left_out(scene, turning):
-        out.note_text("check in time: the rotation, feed or load on the bit of the scene oscillates, and the runs leave that out; describe it by the key "
+        out.note_text("check in time: the rotation, feed or load on the bit of the scene oscillates, and the runs "
+                      "leave that out; describe it by the key "
                       "excitation of the drive to include it")
     courses = _courses(scene, found, count, turning)
     longest = max(one.end for one in courses)
-    out.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} processes; rotation and feed are "
-               f"started within {RAMP:g} s, loads on bits within {RAMP:g} s more; the last {courses[-1].end - courses[-1].settle:.3g} to "
+    out.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} "
+            "processes; rotation and feed are "
+               f"started within {RAMP:g} s, loads on bits within {RAMP:g} s more; the last "
+               f"{courses[-1].end - courses[-1].settle:.3g} to "
                f"{max(one.end - one.settle for one in courses):.3g} s are evaluated")
     started = time.perf_counter()
     results = []
@@ -146,8 +158,10 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
         results.append(one)
         out.say(_line(one, _linear(found, one.speed), out))
     elapsed = time.perf_counter() - started
-    out.say(f"limits: torque oscillates where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
-               f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which weight no longer holds the string on the "
+    out.say(f"limits: torque oscillates where half its range exceeds {SWING:g} of its mean; lateral acceleration where "
+            "its root mean square, the largest "
+               f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which "
+               "weight no longer holds the string on the "
                f"wall. {elapsed:.0f} s by the clock")
     _report(results, found, out, elapsed)
 
@@ -161,10 +175,12 @@ def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Cours
         speeds[min(range(count), key=lambda i: abs(speeds[i] - own))] = own
     slowest = slowest_period(scene)
     settle = 2.0 * RAMP + max(1.0, PERIODS * slowest)
-    drive = next(part for part, (name, arguments) in zip(scene.model.ids, _parts(scene)) if name == "add_drive" and arguments[0].get("time_function")
+    drive = next(part for part, (name, arguments) in zip(scene.model.ids, _parts(scene)) if name == "add_drive"
+                 and arguments[0].get("time_function")
                  and remade.number_of(arguments[0]["time_function"]) == turning)
     return [Course(at_speed(scene, speed, turning), speed, settle,
-                   settle + max(WINDOW, PERIODS * slowest, REVOLUTIONS * 2.0 * math.pi / speed), scene.run.get("step"), drive) for speed in speeds]
+                   settle + max(WINDOW, PERIODS * slowest, REVOLUTIONS * 2.0 * math.pi / speed), scene.run.get("step"),
+                   drive) for speed in speeds]
 
 
 def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Any, ...]]]:
@@ -173,7 +189,8 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Any, ...]]]:
 
 
 def slowest_period(scene: Scene) -> float:
-    """[s] 4 L/c of the longest string, fixed at the rig and free at the bit, c the speed of torsional waves in its first pipes."""
+    """[s] 4 L/c of the longest string, fixed at the rig and free at the bit, c the speed of torsional waves in its
+    first pipes."""
     length: dict[Any, float] = {}
     speed: dict[Any, float] = {}
     for name, arguments in scene.model.calls:
@@ -210,30 +227,39 @@ def _line(one: Result, linear: str, out: CommandOutput) -> str:
     if one.error:
         return f"{head}{FAILED}: {one.error}"
     units = out.units
-    return (f"{head}{one.verdict}: torque {units.text(one.torque, 'N m')} +- {100.0 * one.swing:.0f} %, lateral acceleration "
+    return (f"{head}{one.verdict}: torque {units.text(one.torque, 'N m')} +- {100.0 * one.swing:.0f} %, lateral "
+            "acceleration "
             f"{units.text(one.acceleration, 'm/s2', '.3g')}")
 
 
 def _report(results: list[Result], found: Found, out: CommandOutput, elapsed: float) -> None:
-    rows = [(one.speed / RPM, _linear(found, one.speed), one.verdict, one.torque, one.swing, one.acceleration) for one in results]
+    rows = [(one.speed / RPM, _linear(found, one.speed), one.verdict, one.torque, one.swing, one.acceleration)
+            for one in results]
     marked = [one for one in results if one.verdict not in (STEADY, FAILED)]
     failed = [one for one in results if one.error]
     free = [one for one in marked if _linear(found, one.speed) == "free"]
     if marked:
         speeds = ", ".join(f"{one.speed / RPM:.0f}" for one in marked)
-        out.say(f"avoid in time: {speeds} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
-                                                   if free else ""))
+        out.say(f"avoid in time: {speeds} rpm"
+                + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm "
+                   "free"
+                    if free else ""))
     elif not failed:
         out.say(f"in time none of the {len(results)} speeds oscillates; speeds between them were not run")
     if any(not one.error for one in results) and not any(one.acceleration for one in results if not one.error):
-        out.note_text(f"check in time: {LATERAL} is not assessed, because no place of the string moves across its axis: axial-torsional pipes do not, and "
+        out.note_text(f"check in time: {LATERAL} is not assessed, because no place of the string moves across its "
+                      "axis: axial-torsional pipes do not, and "
                       "others only where something excites them")
     if failed:
         out.note_text(f"check in time: {len(failed)} of {len(results)} runs failed and are not assessed: " +
                          "; ".join(f"{one.speed / RPM:.0f} rpm: {one.error}" for one in failed))
-    out.summary["speeds_check"] = {"limits": {"torque_oscillation": SWING, "acceleration_m_s2": GRAVITY}, "elapsed_s": elapsed, "speeds": [
-        {"speed_rpm": speed, "linear": linear, "time": verdict, "torque_N_m": torque, "torque_oscillation": swing, "acceleration_m_s2": acceleration}
+    out.summary["speeds_check"] = {"limits": {"torque_oscillation": SWING, "acceleration_m_s2": GRAVITY},
+                                   "elapsed_s": elapsed, "speeds": [
+        {"speed_rpm": speed, "linear": linear, "time": verdict, "torque_N_m": torque, "torque_oscillation": swing,
+         "acceleration_m_s2": acceleration}
         for speed, linear, verdict, torque, swing, acceleration in rows]}
-    out.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]", "torque oscillation [-]",
+    out.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]",
+                                   "torque oscillation [-]",
                                       "lateral acceleration [m/s2]"], rows)
-    out.picture("speeds_check.png", lambda plots: plots.speeds_in_time(rows, found.bands, (SWING, GRAVITY), out.scene.title, out.units))
+    out.picture("speeds_check.png", lambda plots: plots.speeds_in_time(rows, found.bands, (SWING, GRAVITY),
+                                                                       out.scene.title, out.units))

@@ -1,4 +1,5 @@
-"""Critical bands over the range of the uncertain parameters in [variability]: diameters, friction and all else that scatters."""
+"""Critical bands over the range of the uncertain parameters in [variability]: diameters, friction and all else that
+scatters."""
 from __future__ import annotations
 
 import itertools
@@ -13,9 +14,12 @@ if TYPE_CHECKING:
     from .critical_speeds import Found
 
 QUANTILE = 1.6448536269514722  #: of the standard normal distribution, at 95 %
-MOST_BREAKPOINTS = 4               #: uncertain values of which all combinations of low and high are computed; more: one after the other
-NO_RANGE = ("range: not assessed, because the scene gives no uncertain diameter or friction; the bands are those of the described values. Give "
-            "[[variability.scatter]] with keys = [\"hole.mu_static\", \"hole.mu_dynamic\"] and relative = true (factors of both), or with "
+#: uncertain values of which all combinations of low and high are computed; more: one after the other
+MOST_BREAKPOINTS = 4
+NO_RANGE = ("range: not assessed, because the scene gives no uncertain diameter or friction; the bands are those of "
+            "the described values. Give "
+            "[[variability.scatter]] with keys = [\"hole.mu_static\", \"hole.mu_dynamic\"] and relative = true "
+            "(factors of both), or with "
             "key = \"hole.diameter\" (not below the diameter of the bit)")
 
 
@@ -29,7 +33,8 @@ def ends_of(marginal: Any) -> tuple[float, float]:
 
 
 def breakpoints(scene: Scene) -> list[dict[str, Any]]:
-    """Changes of the scene, one case each. Fields along hole or string have one value along all of it; processes in time are left out."""
+    """Changes of the scene, one case each. Fields along hole or string have one value along all of it; processes in
+    time are left out."""
     from .probability.draw import Draw
     assert scene.variability is not None
     draw = Draw(scene)
@@ -40,7 +45,8 @@ def breakpoints(scene: Scene) -> list[dict[str, Any]]:
         choices = [dict(zip(ends, values)) for values in itertools.product(*ends.values())]
     else:
         choices = [{name: value} for name, pair in ends.items() for value in pair]
-    return [draw.changes({name: 0.0 * value + choice.get(name, value) if name in ends else value for name, value in middle.items()})
+    return [draw.changes({name: 0.0 * value + choice.get(name, value) if name in ends else value
+                          for name, value in middle.items()})
             for choice in choices]
 
 
@@ -56,9 +62,11 @@ def union(bands: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def bands_over_range(scene: Scene, out: CommandOutput, found: Found) -> list[tuple[float, float]]:
-    """The union of the bands [rad/s] of the described scene and of all breakpoints of its range; it is printed and noted in the summary."""
+    """The union of the bands [rad/s] of the described scene and of all breakpoints of its range; it is printed and
+    noted in the summary."""
     from .critical_speeds import analyse
-    if scene.variability is None or not (scene.variability.scatters or scene.variability.fields) or scene.changed is None:
+    if scene.variability is None or not (scene.variability.scatters
+                                         or scene.variability.fields) or scene.changed is None:
         out.say(NO_RANGE)
         out.summary["speeds_range"] = None
         return []
@@ -77,18 +85,22 @@ def bands_over_range(scene: Scene, out: CommandOutput, found: Found) -> list[tup
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     parts_text = ", ".join(_words(one, out.units) for one in parts)
     ranges = union(bands)
-    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else f"no critical speed in {len(cases) - lost} of them")
+    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm"
+                     for low, high in ranges) or ("not assessed" if lost == len(cases)
+                                                  else f"no critical speed in {len(cases) - lost} of them")
     if lost:
         text += f"; {lost} of the {len(cases)} cases are not assessed, or not for all outputs and orders"
     if len(ranges) > 1:
-        text += "; speeds between these bands are not shown to be free, because bands move as the values change between the cases"
+        text += "; speeds between these bands are not shown to be free, because bands move as the values change " \
+            "between the cases"
     how = "all combinations" if len(parts) <= MOST_BREAKPOINTS else "one at its end, the others in the middle"
     out.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):
         out.note_text(f"speeds, a case of the range: {one}")
     if scene.variability.processes:
         out.say("random processes in time are left out of the range")
-    out.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "not_assessed": lost,
+    out.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases),
+                                   "not_assessed": lost,
                                       "of": [one.name for one in parts]}
     return ranges
 

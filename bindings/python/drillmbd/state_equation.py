@@ -65,8 +65,8 @@ class StateEquation(Handle):
 
     @mirrors("dmb_state_equation_sim")
     def at(self, time: float, y: Sequence[float]) -> Sim:
-        """A sim in that state, for queries alone: accelerations, reactions of joints, outputs. It is there until the next
-        call on this, which it follows."""
+        """A sim in that state, for queries alone: accelerations, reactions of joints, outputs. It is there until the
+        next call on this, which it follows."""
         from .sim import SimAt
         self(time, y)
         return SimAt(self._of, _lib.dmb_state_equation_sim(self._handle), self)

@@ -10,7 +10,8 @@ from ._keep import as_id, as_place, mirrors
 from ._library import lib as _lib
 from ._optional import need
 from ._structs import Excitation, Row, StateSpaceInfo, StateSpaceOptions
-from .enums import (ARRAY_ACCELERATION, ARRAY_MULTIPLIER, ARRAY_POSITION, ARRAY_QUATERNION, ARRAY_RESIDUAL, ARRAY_VELOCITY,
+from .enums import (ARRAY_ACCELERATION, ARRAY_MULTIPLIER, ARRAY_POSITION, ARRAY_QUATERNION, ARRAY_RESIDUAL,
+                    ARRAY_VELOCITY,
                     FRAME_WORLD, MATRIX_A, MATRIX_COORDINATES, MATRIX_DAMPING, MATRIX_JACOBIAN, MATRIX_MASS,
                     MATRIX_STIFFNESS, STATE_REDUCED)
 from ._values import whole
@@ -169,14 +170,16 @@ class Arrays:
     def row(self, row: int) -> Row:
         """The part or node that a row belongs to."""
         answer: Row = Row.blank()
-        self._sim._told(_lib.dmb_query_row(self._sim._handle, whole(row, "row", "row"), byref(answer)), _lib.dmb_query_row)
+        self._sim._told(_lib.dmb_query_row(self._sim._handle, whole(row, "row", "row"), byref(answer)),
+                        _lib.dmb_query_row)
         return answer
 
     @mirrors("dmb_analysis_place_rows")
     def place(self, place: Any, component: int, frame: int = FRAME_WORLD) -> dict[int, float]:
         """A small motion of a place: factors by row."""
         rows, values, count = (c_uint32 * 24)(), (c_double * 24)(), c_uint32()
-        self._sim._check(_lib.dmb_analysis_place_rows(self._sim._handle, as_place(place), frame, component, rows, values,
+        self._sim._check(_lib.dmb_analysis_place_rows(self._sim._handle, as_place(place), frame, component, rows,
+                                                      values,
                                                       byref(count)))
         return {rows[i]: values[i] for i in range(count.value)}
 

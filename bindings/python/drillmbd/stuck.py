@@ -34,7 +34,8 @@ def pull_at_bit(sim: Sim, string: Any, hook_load: float, **more: Any) -> tuple[f
     """[N] effective tension at the far end when the rig pulls with hook_load [N], friction against it; and the row."""
     free = _row(sim, string, enums.OPERATION_PICK_UP, 0.0, **more).hook_load
     span = abs(hook_load) + abs(free) + 1.0
-    force = _solve(lambda pull: _row(sim, string, enums.OPERATION_PICK_UP, -pull, **more).hook_load - hook_load, -span, span)
+    force = _solve(lambda pull: _row(sim, string, enums.OPERATION_PICK_UP, -pull, **more).hook_load - hook_load, -span,
+                   span)
     return force, _row(sim, string, enums.OPERATION_PICK_UP, -force, **more)
 
 
@@ -93,11 +94,13 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
             force, row = ask(sim, string, limit, **more)
             if not force > 0.0:
                 result[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
-                out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction take it all")
+                out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction "
+                        "take it all")
                 continue
             result[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
-            out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far end, "
+            out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far "
+                    "end, "
                        f"{row.helical_share:.2g} of helical buckling")
         torque = limits["torque"]
         if torque is None:
@@ -105,7 +108,8 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
         else:
             lost = _row(sim, string, enums.OPERATION_ROTATE, 0.0, **more).torque
             result["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
-            out.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} at the far end")
+            out.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} "
+                    "at the far end")
     if options.stretch is not None:
         pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
         if not pull > 0.0 or not by > 0.0:

@@ -27,7 +27,8 @@ from .scene.overrides import by_number, path_of_key
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _KEY_AND_VALUES = re.compile(r"((?:[^=\[]|\[[^\]]*\])*)=(.*)", re.DOTALL)  # names in brackets may contain = and &
 _AND = re.compile(r"&(?![^\[]*\])")
-_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick", "elapsed_s", "identity")
+_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick",
+                "elapsed_s", "identity")
 MOST_CASES, MOST_ITEMS = 100_000, 32
 
 
@@ -57,8 +58,8 @@ def _between(text: str) -> list[Any]:
 
 
 def varied(text: str) -> tuple[str, list[Any]]:
-    """KEY=V1,V2,... or KEY=LOW:HIGH:COUNT as the key and its values; "A & B=V1 & W1,V2 & W2" of keys that change together, "A & B=V1,V2" where
-    they have the same values. Raises ValueError."""
+    """KEY=V1,V2,... or KEY=LOW:HIGH:COUNT as the key and its values; "A & B=V1 & W1,V2 & W2" of keys that change
+    together, "A & B=V1,V2" where they have the same values. Raises ValueError."""
     found = _KEY_AND_VALUES.fullmatch(text)
     if found is None or not found[2].strip():
         raise ValueError(f"{text!r}: write KEY=V1,V2 or KEY=LOW:HIGH:COUNT")
@@ -69,12 +70,14 @@ def varied(text: str) -> tuple[str, list[Any]]:
     listed = _between(values) if values.count(":") == 2 else [value_of(one) for one in values.split(",")]
     for value in listed:
         if len(keys) > 1 and len(_parts(value)) not in (1, len(keys)):
-            raise ValueError(f"{text!r}: {value!r} has {len(_parts(value))} values for {len(keys)} keys; write one for all of them, or one each between &")
+            raise ValueError(f"{text!r}: {value!r} has {len(_parts(value))} values for {len(keys)} keys; write one for "
+                             "all of them, or one each between &")
     return " & ".join(keys), listed
 
 
 def refuse_unnamed(keys: list[str], file: str) -> None:
-    """Refuses keys that name a table which the scene file does not have, or has twice, before any case. Raises ValueError; faults of the file are those of each case."""
+    """Refuses keys that name a table which the scene file does not have, or has twice, before any case. Raises
+    ValueError; faults of the file are those of each case."""
     try:
         content = tomllib.loads(pathlib.Path(file).read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):
@@ -108,7 +111,8 @@ def numbers_of(summary: Any, name: str = "") -> dict[str, float]:
     if isinstance(summary, bool) or isinstance(summary, (int, float)):
         return {name: float(summary)}
     if isinstance(summary, dict):
-        items: Iterable[tuple[str, Any]] = ((f"{name}.{key}" if name else str(key), value) for key, value in summary.items()
+        items: Iterable[tuple[str, Any]] = ((f"{name}.{key}" if name else str(key), value)
+                                            for key, value in summary.items()
                                             if name or key not in _NOT_NUMBERS)
     elif isinstance(summary, list):
         items = ((f"{name}[{i}]", value) for i, value in enumerate(summary[:MOST_ITEMS]))
@@ -120,8 +124,10 @@ def numbers_of(summary: Any, name: str = "") -> dict[str, float]:
 class Sweep:
     """The cases of a sweep and their results."""
 
-    def __init__(self, question: str, keys: list[str], folder: pathlib.Path | None, quiet: bool, count: int, more: list[str]) -> None:
-        self.question, self.keys, self.folder, self.quiet, self.count, self.more = question, keys, folder, quiet, count, more
+    def __init__(self, question: str, keys: list[str], folder: pathlib.Path | None, quiet: bool, count: int,
+                 more: list[str]) -> None:
+        self.question, self.keys, self.folder, self.quiet, self.count, self.more = (question, keys, folder, quiet,
+                                                                                    count, more)
         self.rows: list[dict[str, Any]] = []
         self.failed = self.kept = 0
         self.warnings: list[str] = []
@@ -153,12 +159,15 @@ class Sweep:
             self.failed += 1
             self.rows.append(row)
             row.update(status="failed", message=line_of(error))
-        settings = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}" for key, value in changes.items())
-        self.say(f"case {number} of {self.count}: {settings}: {row['status']}{about}" + (f": {row['message']}" if row["message"] else ""))
+        settings = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}"
+                             for key, value in changes.items())
+        self.say(f"case {number} of {self.count}: {settings}: {row['status']}{about}"
+                 + (f": {row['message']}" if row["message"] else ""))
 
     def _answer(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
         """The summary of a case that is computed now. Raises KeyboardInterrupt where Ctrl-C ended it."""
-        out = CommandOutput(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True, units_of(options, scene))
+        out = CommandOutput(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question,
+                            True, units_of(options, scene))
         out.summary["identity"] = self._identity(scene)
         try:
             carry_out(scene, out, options, QUESTIONS[self.question])
@@ -184,7 +193,8 @@ class Sweep:
             found = json.loads((self.folder / f"{number:05d}" / "summary.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return None
-        same = isinstance(found, dict) and found.get("status") == 0 and found.get("identity") and found["identity"] == self._identity(scene)
+        same = (isinstance(found, dict) and found.get("status") == 0 and found.get("identity")
+                and found["identity"] == self._identity(scene))
         return found if same else None
 
     def _warn(self, texts: list[str]) -> None:
@@ -209,19 +219,23 @@ class Sweep:
             if self.rows:
                 self.write(self.folder / "sweep.csv")
                 files.append("sweep.csv")
-            found = {"command": "sweep", "question": self.question, "scene": os.path.basename(file), "drillmbd": __version__, "keys": self.keys,
-                     "cases": self.count, "computed": len(self.rows) - self.kept, "kept": self.kept, "failed": self.failed, "warnings": self.warnings,
-                     "notes": [f"stopped by Ctrl-C after {len(self.rows)} of {self.count} cases"] if status == STOPPED else [], "files": files,
+            found = {"command": "sweep", "question": self.question, "scene": os.path.basename(file),
+                     "drillmbd": __version__, "keys": self.keys,
+                     "cases": self.count, "computed": len(self.rows) - self.kept, "kept": self.kept,
+                     "failed": self.failed, "warnings": self.warnings,
+                     "notes": [f"stopped by Ctrl-C after {len(self.rows)} of {self.count} cases"] if status == STOPPED
+                     else [], "files": files,
                      "status": status, "elapsed_s": time.perf_counter() - self.started}
             (self.folder / "summary.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-        self.say(f"{len(self.rows)} of {self.count} cases, {self.failed} failed" + (f"; {self.folder / 'sweep.csv'}" if self.folder else ""))
+        self.say(f"{len(self.rows)} of {self.count} cases, {self.failed} failed" + (f"; {self.folder / 'sweep.csv'}"
+                                                                                    if self.folder else ""))
         return status
 
 
 def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict[str, Any]], Scene], file: str,
           options: Any, folder: str | None, quiet: bool, more: list[str]) -> int:
-    """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished cases. more: the options
-    of the command as they are written."""
+    """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished
+    cases. more: the options of the command as they are written."""
     target = pathlib.Path(folder) if folder is not None else None
     if target is not None:
         target.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,5 @@
-"""Hook load and torque of the rig by depth and operation, as a soft string, and the broomstick picture over friction coefficients."""
+"""Hook load and torque of the rig by depth and operation, as a soft string, and the broomstick picture over friction
+coefficients."""
 from __future__ import annotations
 
 import math
@@ -19,7 +20,8 @@ from .sim import Sim
 from .unit_systems import SI, Units
 
 MOST_DEPTHS, MOST_FRICTIONS = 2 ** 20, 20
-FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items() if name not in ("struct_size", "reserved", "depth", "locked")}
+FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items()
+          if name not in ("struct_size", "reserved", "depth", "locked")}
 WORDS = {int(kind): operation_name(kind) for kind in OPERATIONS}
 
 
@@ -89,14 +91,17 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
     elif plan.weight_on_bit:
         notes.append(f"weight on bit {units.scaled(plan.weight_on_bit, 'N')}, the largest load of the bit in the scene")
     else:
-        notes.append(f"weight on bit 0 {units.unit('N')}, because the scene gives the bit no load; give --weight-on-bit")
+        notes.append(f"weight on bit 0 {units.unit('N')}, because the scene gives the bit no load; give "
+                     "--weight-on-bit")
     if options.torque_on_bit is not None:
         plan.torque_on_bit, plan.estimated = quantity(options.torque_on_bit, "N*m", "--torque-on-bit"), False
         notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, as given")
     elif plan.estimated:
-        notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
+        notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, estimated: {BIT_FRICTION:g} x weight "
+                     "on bit x bit diameter / 3")
     elif plan.weight_on_bit:
-        notes.append(f"torque on bit 0 {units.unit('N m')}: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
+        notes.append(f"torque on bit 0 {units.unit('N m')}: it is not estimated for a bit with a rock law or without a "
+                     "diameter; give --torque-on-bit")
     block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
     if block < 0.0:
         raise Usage(f"--block-weight {options.block_weight}: must be >= 0")
@@ -104,9 +109,11 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
         notes.append(f"hook loads include {units.scaled(block, 'N')} of block and top drive")
     operations = operations_of(plan)
     drill = operations[enums.OPERATION_DRILL]
-    notes.append(f"drilling at {units.text(drill.rotary_speed / RPM, 'rpm')} and {units.text(1e3 * drill.axial_speed, 'mm/s')}"
+    notes.append(f"drilling at {units.text(drill.rotary_speed / RPM, 'rpm')} and "
+                 f"{units.text(1e3 * drill.axial_speed, 'mm/s')}"
                  + ("" if plan.rotation and plan.feed else " (usual values where the scene gives none)"))
-    return Settings(plan, operations, block, friction_option(options), _frictions(getattr(options, "frictions", None)), ["; ".join(notes)])
+    return Settings(plan, operations, block, friction_option(options), _frictions(getattr(options, "frictions", None)),
+                    ["; ".join(notes)])
 
 
 def _frictions(text: str | None) -> list[float]:
@@ -131,7 +138,8 @@ def depths_of(sim: Sim, string: Any, text: str, units: Units = SI) -> list[float
     if re.fullmatch(r"\s*[-+]?[0-9]+\s*", text):
         count = int(text)
         if not 1 <= count <= MOST_DEPTHS:
-            raise Usage(f"--depths {count} is outside 1 .. {MOST_DEPTHS}; it is a number of depths, depths have units, as \"100 m,200 m\"")
+            raise Usage(f"--depths {count} is outside 1 .. {MOST_DEPTHS}; it is a number of depths, depths have units, "
+                        "as \"100 m,200 m\"")
         return [first + (last - first) * (i + 1) / count for i in range(count)]
     found = sorted({quantity(one.strip(), "m", "--depths") for one in text.split(",")})
     for depth in found:
@@ -148,7 +156,8 @@ def _range(sim: Sim, string: Any) -> tuple[float, float]:
 def _check_depth(option: str, depth: float, ends: tuple[float, float], units: Units) -> None:
     first, last = ends
     if not first < depth <= last + 1e-9 * abs(last):
-        raise Usage(f"{option}: {units.text(depth, 'm', 'g')} must be above {units.text(first, 'm', 'g')}, where the string begins, and at most "
+        raise Usage(f"{option}: {units.text(depth, 'm', 'g')} must be above {units.text(first, 'm', 'g')}, where the "
+                    "string begins, and at most "
                     f"{units.text(last, 'm', 'g')}, where it ends in the scene")
 
 
@@ -165,8 +174,10 @@ def _compare(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, setting
         friction = broomstick.wall_friction(scene, first, last)
     values = broomstick.wall_frictions(scene, first, last)
     if max(values) - min(values) > 1e-9:
-        out.say(f"{curves.name}, measured: first one coefficient for all sections of the hole, then one for each section")
-    measured.compare(sim, curves.string, curves.name, out, settings.series, settings.operations, settings.block_weight, friction)
+        out.say(f"{curves.name}, measured: first one coefficient for all sections of the hole, then one for each "
+                "section")
+    measured.compare(sim, curves.string, curves.name, out, settings.series, settings.operations, settings.block_weight,
+                     friction)
     section_fit.compare(scene, curves.name, out, settings.series, settings.operations, settings.block_weight)
 
 
@@ -179,23 +190,31 @@ def _write_rows(sim: Sim, out: CommandOutput, curves: Curves, settings: Settings
     found, result = curves.found, {}
     for kind, row in zip(WORDS, found.rows[-1]):
         neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
-        out.say(f"{curves.name}, {WORDS[kind]} at {out.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, out.units)}")
+        out.say(f"{curves.name}, {WORDS[kind]} at {out.units.text(row.depth, 'm')}: "
+                f"{_sentence(curves, row, neutral, out.units)}")
         result[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
-                             **{key_of(name, FIELDS[name]): finite(value) for name, value in zip(FIELDS, _values(curves, row))}}
+                             **{key_of(name, FIELDS[name]): finite(value)
+                                for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
-        out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength; give it in [[string.pipes]]"
-                + (" (yield_stress of [limits] is compared by report and probability)" if "yield_stress" in out.scene.limits else ""))
+        out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength; give it in "
+                "[[string.pipes]]"
+                + (" (yield_stress of [limits] is compared by report and probability)"
+                   if "yield_stress" in out.scene.limits else ""))
     out.summary.setdefault("torque_drag", {})[curves.name] = result
     out.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
-        word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
-               **{key_of(name, FIELDS[name]): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
+        word: {"depth_m": found.column("depth", number),
+               "locked": [bool(one) for one in found.column("locked", number)],
+               **{key_of(name, FIELDS[name]): list(column)
+                  for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
         for number, word in WORDS.items()}
-    heads = ["depth [m]", "operation", "locked", *(f"{name.replace('_', ' ')} [{unit or '-'}]" for name, unit in FIELDS.items())]
+    heads = ["depth [m]", "operation", "locked", *(f"{name.replace('_', ' ')} [{unit or '-'}]"
+                                                   for name, unit in FIELDS.items())]
     out.table(f"torque_drag_{file_name(curves.name)}.csv", heads,
                  [[row.depth, word, row.locked, *_values(curves, row)]
                   for number, word in WORDS.items() for row in (rows[number] for rows in found.rows)])
     out.picture(f"torque_drag_{file_name(curves.name)}.png",
-                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight, out.units))
+                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight,
+                                                   out.units))
 
 
 def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: Units) -> str:
@@ -206,17 +225,22 @@ def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: 
              f"torque {units.text(row.torque, 'N m')}",
              f"{100.0 * row.transfer:.0f} % of a small increase of thrust arrives at the bit"]
     if row.lowest_force < 0.0:
-        parts.append(f"largest compression {units.text(-row.lowest_force / 1e3, 'kN')} at {units.text(row.lowest_at, 'm')}, "
-                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at {units.text(row.buckled_at, 'm')}"
-                        if math.isfinite(row.helical_share) else "buckling not assessed, because a compressed part is not pressed to the wall"))
+        parts.append(f"largest compression {units.text(-row.lowest_force / 1e3, 'kN')} at "
+                     f"{units.text(row.lowest_at, 'm')}, "
+                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at "
+                        f"{units.text(row.buckled_at, 'm')}"
+                        if math.isfinite(row.helical_share)
+                        else "buckling not assessed, because a compressed part is not pressed to the wall"))
     if neutral is not None:
         parts.append(f"neutral point at {units.text(neutral, 'm')}")
     if row.helix_length > 0.0:
         parts.append(f"{units.text(row.helix_length, 'm')} of helix")
     if math.isfinite(row.yield_share):
         parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {units.text(row.yield_at, 'm')}")
-    stretch = units.text(row.stretch, "m", ".3g") if abs(row.stretch) >= 1.0 else units.text(1e3 * row.stretch, "mm", ".3g")
-    parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {units.text(row.wall_force / 1e3, 'kN', '.3g')}")
+    stretch = (units.text(row.stretch, "m", ".3g") if abs(row.stretch) >= 1.0
+               else units.text(1e3 * row.stretch, "mm", ".3g"))
+    parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force "
+                 f"{units.text(row.wall_force / 1e3, 'kN', '.3g')}")
     return ", ".join(parts)
 
 

@@ -21,7 +21,8 @@ class Window(Handle):
     """Watches outputs over the last so many seconds; made by Sim.window. Call take() after every step."""
     _kind = "window"
 
-    def __init__(self, sim: Sim, outputs: Sequence[Any], options: WindowOptions, levels: Sequence[float] | None) -> None:
+    def __init__(self, sim: Sim, outputs: Sequence[Any], options: WindowOptions,
+                 levels: Sequence[float] | None) -> None:
         self.sim, self._handle = sim, c_void_p()
         self._count = len(outputs)
         asked = outputs_of(outputs, sim._parts, "window")

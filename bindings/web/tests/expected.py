@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Prints the figures that the live page must reach: torque and thrust at the rig by `drillmbd run`, and the hash of the page's model by the native library.
+"""Prints the figures that the live page must reach: torque and thrust at the rig by `drillmbd run`, and the hash of the
+page's model by the native library.
 
-usage: expected.py SCENE.toml TIME [--hash] > expected.json; --hash: the hash and the outputs of the page's traces alone, without a run of the command"""
+usage: expected.py SCENE.toml TIME [--hash] > expected.json; --hash: the hash and the outputs of the page's traces
+alone, without a run of the command"""
 import csv
 import json
 import pathlib
@@ -32,13 +34,15 @@ def native(loaded, time):
             sim.static(**loaded.fields_of("static"))
         while sim.time < time - 1e-9:
             sim.step(loaded.run["step"])
-        return {"hash": f"{sim.hash():016x}", "values": [sim.output(one["quantity"], place_of(model, one["place"])) for one in places]}
+        return {"hash": f"{sim.hash():016x}", "values": [sim.output(one["quantity"], place_of(model, one["place"]))
+                                                         for one in places]}
 
 
 def place_of(model, given):
     """A place of a record in this model."""
     part = given["part"]
-    return Place(model.own(Id(part["index"], 1)), pipe=given["pipe"], fraction=given["fraction"]) if part["generation"] else Place()
+    return Place(model.own(Id(part["index"], 1)), pipe=given["pipe"],
+                 fraction=given["fraction"]) if part["generation"] else Place()
 
 
 def main():

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Real-time factor of scenes by the native library: of the part of the run that speed.mjs measures. usage: speed.py SCENE.toml..."""
+"""Real-time factor of scenes by the native library: of the part of the run that speed.mjs measures. usage: speed.py
+SCENE.toml..."""
 import sys
 import time
 

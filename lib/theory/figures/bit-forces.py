@@ -9,11 +9,13 @@ figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.3), gridspec_kw={"wid
 left.set_aspect("equal")
 left.axis("off")
 rock = "#efe9df"
-left.add_patch(Polygon([(-1.5, 2.4), (-1.05, 2.4), (-1.05, 0), (1.05, 0), (1.05, 2.4), (1.5, 2.4), (1.5, -1.3), (-1.5, -1.3)],
+left.add_patch(Polygon([(-1.5, 2.4), (-1.05, 2.4), (-1.05, 0), (1.05, 0), (1.05, 2.4), (1.5, 2.4), (1.5, -1.3),
+                        (-1.5, -1.3)],
                        fc=rock, ec="none"))
 left.plot([-1.05, -1.05, 1.05, 1.05], [2.4, 0, 0, 2.4], color=GREY, lw=1.5)
 left.add_patch(Rectangle((-0.35, 1.1), 0.7, 1.3, fc="#dfe8f1", ec=INK))
-left.add_patch(Polygon([(-0.5, 1.1), (0.5, 1.1), (1.0, 0.45), (1.0, 0.0), (-1.0, 0.0), (-1.0, 0.45)], fc="#c9d6e4", ec=INK))
+left.add_patch(Polygon([(-0.5, 1.1), (0.5, 1.1), (1.0, 0.45), (1.0, 0.0), (-1.0, 0.0), (-1.0, 0.45)], fc="#c9d6e4",
+                       ec=INK))
 left.plot([0, 0], [2.65, -0.2], color=GREY, lw=0.8, ls=(0, (7, 3)))
 arrow(left, (0, -1.15), (0, -0.05), "", RED)
 left.text(0.18, -0.72, "$W$", color=RED, va="center")
@@ -52,7 +54,8 @@ right.plot(phi, -old, color=ORANGE, ls="--", label="left by the blade before")
 right.plot(phi, -new, color=BLUE, label="cut by this blade")
 x = 0.6
 top, bottom = -advance(x - spacing), -advance(x)
-right.add_patch(Polygon([(x, bottom), (x + 0.5, bottom + 0.75), (x + 0.28, bottom + 0.95), (x, top + 0.0)], fc="#c9d6e4", ec=INK))
+right.add_patch(Polygon([(x, bottom), (x + 0.5, bottom + 0.75), (x + 0.28, bottom + 0.95), (x, top + 0.0)],
+                        fc="#c9d6e4", ec=INK))
 dimension(right, (x - 0.12, bottom), (x - 0.12, top), "$d_n$", colour=INK, offset=(-0.24, 0))
 right.annotate("", xy=(x, 1.15), xytext=(x - spacing, 1.15), arrowprops={"arrowstyle": "<->", "color": GREY, "lw": 0.9})
 right.text(x - 0.5 * spacing, 1.28, r"$2\pi/n$", color=GREY, ha="center")
@@ -61,7 +64,8 @@ right.plot([x, x], [top, 1.2], color=GREY, lw=0.7, ls=":")
 right.text(1.55, -1.35, "rock", color=GREY)
 arrow(right, (1.2, 0.95), (1.9, 0.95), "", BLUE)
 right.text(1.55, 1.08, r"$\Omega$", color=BLUE, ha="center")
-right.set(xlabel=r"angle $\Phi$", ylabel="height of the surface", xlim=(-2.6, 2.4), ylim=(-2.0, 1.9), xticks=[], yticks=[])
+right.set(xlabel=r"angle $\Phi$", ylabel="height of the surface", xlim=(-2.6, 2.4), ylim=(-2.0, 1.9), xticks=[],
+          yticks=[])
 right.legend(frameon=False, fontsize=8, loc="lower left")
 figure.tight_layout()
 save(figure)

@@ -22,7 +22,8 @@ line = np.linspace(-4, 4.6, 20001)
 edge = np.column_stack([line, (3.2 - 0.75 * line - 0.09 * line**2) / 0.6])
 closest = edge[np.argmin(np.hypot(*edge.T))]
 arrow(left, (0, 0), tuple(closest), "", INK)
-left.text(*(0.62 * closest + (-0.3, 0.42)), r"$\beta$", color=INK, zorder=9, bbox={"fc": "white", "ec": "none", "pad": 1.0})
+left.text(*(0.62 * closest + (-0.3, 0.42)), r"$\beta$", color=INK, zorder=9,
+          bbox={"fc": "white", "ec": "none", "pad": 1.0})
 left.plot(*closest, "o", color=INK, ms=4)
 left.text(2.3, 3.5, r"$g\leq 0$", color=RED)
 left.text(-3.6, -3.6, "$g>0$", color=BLUE)

@@ -8,7 +8,8 @@ X, WIDE = 3.0, 5.6
 
 
 def box(y, text, chapter="", height=0.72, colour="#e8eef5"):
-    axes.add_patch(FancyBboxPatch((X - WIDE / 2, y - height / 2), WIDE, height, boxstyle="round,pad=0.03,rounding_size=0.1", fc=colour,
+    axes.add_patch(FancyBboxPatch((X - WIDE / 2, y - height / 2), WIDE, height,
+                                  boxstyle="round,pad=0.03,rounding_size=0.1", fc=colour,
                                   ec=INK, lw=1))
     axes.text(X, y, text, ha="center", va="center", fontsize=8)
     if chapter:
@@ -16,7 +17,8 @@ def box(y, text, chapter="", height=0.72, colour="#e8eef5"):
 
 
 def question(y, text, height=0.95):
-    axes.add_patch(Polygon([(X - WIDE / 2, y), (X, y + height / 2), (X + WIDE / 2, y), (X, y - height / 2)], fc="#fdf3e1", ec=INK, lw=1))
+    axes.add_patch(Polygon([(X - WIDE / 2, y), (X, y + height / 2), (X + WIDE / 2, y), (X, y - height / 2)],
+                           fc="#fdf3e1", ec=INK, lw=1))
     axes.text(X, y, text, ha="center", va="center", fontsize=8)
 
 
@@ -28,15 +30,19 @@ def down(y0, y1, text=""):
 
 box(11.6, "Describe: pipes, bodies, bit, joints,\nwall, drives, mud", "Kinematics; The element; Joints; Mud")
 down(11.22, 10.94)
-box(10.56, "Compile: nodes and frames, element matrices,\nconstraint rows, contact points", "Equations of motion; Contact")
+box(10.56, "Compile: nodes and frames, element matrices,\nconstraint rows, contact points",
+    "Equations of motion; Contact")
 down(10.18, 9.9)
-box(9.52, "Static state: ladder of strategies, partition\nof coordinates, sign of the stiffness", "Statics and stability")
+box(9.52, "Static state: ladder of strategies, partition\nof coordinates, sign of the stiffness",
+    "Statics and stability")
 down(9.14, 8.76)
 box(8.48, "Start: consistent accelerations", "Joints; Time integration", 0.5)
 down(8.21, 7.88)
-box(7.5, "Predict; prescribe drives; project poses,\nspeeds and accelerations onto constraints", "Time integration; Joints")
+box(7.5, "Predict; prescribe drives; project poses,\nspeeds and accelerations onto constraints",
+    "Time integration; Joints")
 down(7.12, 6.84)
-box(6.46, "Residual: elements, inertia, wall, friction,\nrock, drives; multipliers of dependent rows", "The element; Contact; Bit")
+box(6.46, "Residual: elements, inertia, wall, friction,\nrock, drives; multipliers of dependent rows",
+    "The element; Contact; Bit")
 down(6.08, 5.9)
 question(5.42, "residual small?")
 down(4.94, 4.62, "yes")

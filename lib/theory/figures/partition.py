@@ -33,7 +33,8 @@ axes.text(left + size * (rank + columns) / 2, top + 0.22, "independent", ha="cen
 axes.text(left + size * columns + 0.1, top - size * rank / 2, "pivot rows", ha="left", va="center", color=GREY)
 
 axes.text(left, 0.3, r"$x_d=G\,x_i,\quad G=-C_d^{-1}C_i$", ha="left")
-axes.text(0.0, 0.3, r"$\mathcal{R}=(G;\,I),\quad B\,\mathcal{R}=0,\quad\mathcal{R}^{T}S_c\,\mathcal{R}\,y=-\mathcal{R}^{T}r$",
+axes.text(0.0, 0.3,
+          r"$\mathcal{R}=(G;\,I),\quad B\,\mathcal{R}=0,\quad\mathcal{R}^{T}S_c\,\mathcal{R}\,y=-\mathcal{R}^{T}r$",
           ha="left")
 axes.set_xlim(-0.1, 7.9)
 axes.set_ylim(0.05, 2.7)

@@ -19,7 +19,8 @@ def point(s):
     turn, length = 0.7, 3.6
     angle = -0.25 + turn * s
     radius = length / turn
-    return np.array([1.9 + radius * (np.sin(angle) - np.sin(-0.25)), 1.35 - radius * (np.cos(angle) - np.cos(-0.25))]), angle
+    return np.array([1.9 + radius * (np.sin(angle) - np.sin(-0.25)),
+                     1.35 - radius * (np.cos(angle) - np.cos(-0.25))]), angle
 
 
 figure, axes = sketch(7.2, 3.4)

@@ -12,7 +12,8 @@ left.loglog(x, dynamic * (x / crossing) ** 2, color=RED, label=r"eccentricity: f
 left.axvline(crossing, color=GREY, lw=0.9, ls=":")
 left.axvline(1, color=LIGHT, lw=0.9)
 left.text(crossing * 0.95, 0.016, "forces equal", color=GREY, rotation=90, ha="right", va="bottom", fontsize=8)
-left.set(xlabel="frequency over natural frequency", ylabel="amplitude over static one", ylim=(0.012, 9000), xlim=(0.08, 6))
+left.set(xlabel="frequency over natural frequency", ylabel="amplitude over static one", ylim=(0.012, 9000),
+         xlim=(0.08, 6))
 left.legend(frameon=False, fontsize=8, loc="upper left")
 
 speed = np.linspace(0, 3, 200)
@@ -33,6 +34,7 @@ for order, style in ((1, "-"), (2, "-.")):
         k = np.argmin(np.abs(order * speed - curve))
         if curve[k] < 2.95:
             right.plot(speed[k], curve[k], "o", color=RED, ms=4, zorder=5)
-right.set(xlabel=r"rotary speed $\Omega$", ylabel=r"frequency $\omega$", xlim=(0, 3), ylim=(0, 3), xticks=range(4), yticks=range(4))
+right.set(xlabel=r"rotary speed $\Omega$", ylabel=r"frequency $\omega$", xlim=(0, 3), ylim=(0, 3), xticks=range(4),
+          yticks=range(4))
 figure.tight_layout()
 save(figure)

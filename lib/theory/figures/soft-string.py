@@ -29,13 +29,17 @@ arrow(axes, at(a), at(a) - 1.35 * tangent(a), r"$-N\,\mathbf{t}$", BLUE, at=at(a
 arrow(axes, at(b), at(b) + 1.45 * tangent(b), r"$(N+dN)(\mathbf{t}+\mathbf{k}\,ds)$", BLUE,
       at=at(b) + 1.5 * tangent(b) + (0.85, 0.2))
 arrow(axes, at(0), at(0) + (0, -1.15), r"$\mathbf{w}\,ds$", INK, at=at(0) + (0.3, -1.1))
-arrow(axes, at(0.12, 3.2 - 0.32) + (-0.1, 1.15), at(0.12, 3.2 - 0.32), "$c\\,ds$", RED, at=at(0.12, 3.2 - 0.32) + (-0.42, 0.95))
-arrow(axes, at(-0.1, 3.2 - 0.32), at(-0.1, 3.2 - 0.32) - 0.95 * tangent(-0.1), r"$\mu c\,\frac{v_a}{|\mathbf{v}|}\,ds$", GREEN,
+arrow(axes, at(0.12, 3.2 - 0.32) + (-0.1, 1.15), at(0.12, 3.2 - 0.32), "$c\\,ds$", RED,
+      at=at(0.12, 3.2 - 0.32) + (-0.42, 0.95))
+arrow(axes, at(-0.1, 3.2 - 0.32), at(-0.1, 3.2 - 0.32) - 0.95 * tangent(-0.1), r"$\mu c\,\frac{v_a}{|\mathbf{v}|}\,ds$",
+      GREEN,
       at=at(-0.1, 3.2 - 0.32) - 0.75 * tangent(-0.1) + (0, 0.42))
-axes.annotate("", xy=at(0.78, 3.2 + 0.75), xytext=at(0.52, 3.2 + 0.75), arrowprops={"arrowstyle": "-|>", "color": GREY, "lw": 1})
+axes.annotate("", xy=at(0.78, 3.2 + 0.75), xytext=at(0.52, 3.2 + 0.75),
+              arrowprops={"arrowstyle": "-|>", "color": GREY, "lw": 1})
 axes.text(*at(0.65, 3.2 + 1.0), r"motion $v_a$", color=GREY, ha="left", va="center")
 axes.text(*at(-0.82, 3.2 + 0.6), "to the rig", color=GREY, ha="center", va="center")
-axes.text(-0.02, 1.72, "wall pushes back where the\ntensions press the string", color=RED, ha="left", va="bottom", fontsize=8)
+axes.text(-0.02, 1.72, "wall pushes back where the\ntensions press the string", color=RED, ha="left", va="bottom",
+          fontsize=8)
 axes.set_xlim(-3.5, 4.3)
 axes.set_ylim(-1.45, 2.4)
 save(figure)

@@ -17,7 +17,8 @@ left.plot([-0.2, touch, touch, 5], [0, 0, 1, 1], color=GREY, lw=1.6, label="damp
 left.plot([0, 1, 2, 3, 4, 5], [0, *w, 1, 1], "o-", color=BLUE, ms=4, label="weights, straight lines")
 left.plot([0, 1, 2, 3, 4, 5], [0, 1, 1, 1, 1, 1], "s:", color=ORANGE, ms=3, lw=1, label="without weights")
 for k, one in enumerate(w, 1):
-    left.annotate(f"$w_{k}$", (k, one), textcoords="offset points", xytext=((8, -9), (4, 6), (2, -13))[k - 1], color=BLUE)
+    left.annotate(f"$w_{k}$", (k, one), textcoords="offset points", xytext=((8, -9), (4, 6), (2, -13))[k - 1],
+                  color=BLUE)
 left.annotate("", xy=(touch, -0.16), xytext=(1, -0.16), arrowprops={"arrowstyle": "<->", "lw": 0.9, "color": GREY},
               annotation_clip=False)
 left.text(0.5 * (touch + 1), -0.33, "$p$", color=GREY, ha="center")
@@ -28,7 +29,8 @@ x = np.linspace(0, 1, 100)
 for k, (curve, colour) in enumerate(zip(weights(x), (BLUE, RED, GREEN)), 1):
     right.plot(x, curve, color=colour)
     at = (0.8, 0.2, 0.13)[k - 1]
-    right.text(at - 0.02, np.interp(at, x, curve) + (0.07, 0.07, 0.13)[k - 1], f"$w_{k}(p)$", color=colour, ha="right" if k == 1 else "left")
+    right.text(at - 0.02, np.interp(at, x, curve) + (0.07, 0.07, 0.13)[k - 1], f"$w_{k}(p)$", color=colour,
+               ha="right" if k == 1 else "left")
 for a, at in ((11 / 6, (1, 0)), (2 / 3, (1, 0)), (1, (1,)), (0, (0,))):
     right.plot(at, [a] * len(at), "o", color=GREY, ms=4)
     if len(at) == 2:

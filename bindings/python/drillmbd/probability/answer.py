@@ -1,4 +1,5 @@
-"""The result of a study: probabilities with intervals, demands, rank correlations, cost; on the terminal, in summary.json, as tables."""
+"""The result of a study: probabilities with intervals, demands, rank correlations, cost; on the terminal, in
+summary.json, as tables."""
 from __future__ import annotations
 
 import argparse
@@ -25,10 +26,13 @@ from .until import MOST, Rule, following, looks, rule, spent
 
 ANY = "any failure"
 MOST_SAMPLES = 10_000_000
-LEFT_OUT = {"torque-drag": "by torque and drag of a soft string: pulled out, pushed in and rotated with the load of the bit; dynamics and bending within the "
+LEFT_OUT = {"torque-drag": "by torque and drag of a soft string: pulled out, pushed in and rotated with the load of "
+                           "the bit; dynamics and bending within the "
                            "clearance of the hole are left out",
-            "static": "by static states of the stiff string: pushed in, pulled out and rotated with the load of the bit; dynamics are left out",
-            "run": "by a run in time of each sample, whose largest and smallest values are those of regular looks ([variability] look)"}
+            "static": "by static states of the stiff string: pushed in, pulled out and rotated with the load of the "
+                      "bit; dynamics are left out",
+            "run": "by a run in time of each sample, whose largest and smallest values are those of regular looks "
+                   "([variability] look)"}
 
 
 class Asked:
@@ -48,11 +52,13 @@ class Asked:
         self.of = options.failure or ANY
         self.rule: Rule | None = rule(options.until) if options.until is not None else None
         if self.rule is not None and (self.sampling != "monte-carlo" or options.surrogate):
-            raise Usage("--until adds samples to a Monte Carlo study: leave --indices, --surrogate and other methods out")
+            raise Usage("--until adds samples to a Monte Carlo study: leave --indices, --surrogate and other methods "
+                        "out")
         if self.rule is not None:
             self.samples = options.samples or MOST
         if not self.samples <= MOST_SAMPLES:
-            raise Usage(f"{self.samples} samples, must be <= {MOST_SAMPLES}: each is kept in memory; for rare failures use --method subset")
+            raise Usage(f"{self.samples} samples, must be <= {MOST_SAMPLES}: each is kept in memory; for rare failures "
+                        "use --method subset")
         if options.surrogate and self.sampling in ("subset", "indices"):
             raise Usage("--surrogate is fitted to plain samples: leave --indices and --method subset out")
         self.assessed = Assessed(sample)
@@ -67,7 +73,8 @@ class Asked:
         """The estimate of counted failures, whose interval holds at all looks of --until together."""
         found = counted(margins, self.method, replicates, self.each_look)
         if self.rule is not None:
-            found = replace(found, confidence=self.confidence, about=f"{found.about}, for {looks(self.samples)} looks together")
+            found = replace(found, confidence=self.confidence,
+                            about=f"{found.about}, for {looks(self.samples)} looks together")
         return found
 
     @property
@@ -100,7 +107,8 @@ class Answer:
             output.note_text("[results] units is ignored: probability writes SI units")
         for one in asked.failures:
             if one.assumed:
-                output.note_text(f"{one.name}: limit {amount(one.limit, KINDS[one.kind].unit)} is assumed, because the scene gives none: {KINDS[one.kind].source}")
+                output.note_text(f"{one.name}: limit {amount(one.limit, KINDS[one.kind].unit)} is assumed, because the "
+                                 f"scene gives none: {KINDS[one.kind].source}")
         for text in asked.assessed.notes(asked.failures):
             output.note_text(text)
         self.question = self.sample.question
@@ -109,7 +117,8 @@ class Answer:
         self.started = self.shown = clock.monotonic()
         self.estimates: dict[str, Estimate] = {}
         self.demands: dict[str, Demand] = {}
-        self.failing: dict[int, bool] = {}  # whether any failure occurs, or that of --failure, by the number of a sample with all of its margins
+        # whether any failure occurs, or that of --failure, by the number of a sample with all of its margins
+        self.failing: dict[int, bool] = {}
 
     def answer(self) -> int:
         """Computes it; returns the exit status."""
@@ -152,14 +161,17 @@ class Answer:
             return
         self.shown = now
         if sys.stderr.isatty():
-            print(f"\r{at.done}/{at.asked} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="", file=sys.stderr)
+            print(f"\r{at.done}/{at.asked} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="",
+                  file=sys.stderr)
 
     def report(self, name: str, one: Estimate) -> None:
         """An estimate."""
         lost = f", {one.lost} samples without a margin" if one.lost else ""
         tried = f"{one.lost} runs" if one.method == "auto" else f"{one.samples} samples"
-        self.output.say(f"{name}: not assessed, because none of {tried} has a margin" if math.isnan(one.probability) or one.lost == one.samples else
-                        f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
+        self.output.say(f"{name}: not assessed, because none of {tried} has a margin" if math.isnan(one.probability)
+                        or one.lost == one.samples else
+                        f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. "
+                        f"{one.high:.4g} "
                         f"({one.failures} of {one.samples}{lost}; {one.about})")
         one.more.setdefault("effective_samples", float(one.samples - one.lost) if one.method == "monte-carlo" else
                             effective(one.probability, one.low, one.high, one.confidence))
@@ -179,7 +191,8 @@ class Answer:
         least = (margins / numpy.array(asked.scales())).min(axis=1)
         self.report(ANY, asked.counted(least, points.replicates))
         if asked.rule is not None:
-            self.output.say(f"--until {self.options.until}: {self.asked.of}: {asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
+            self.output.say(f"--until {self.options.until}: {self.asked.of}: "
+                            f"{asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
         self.say_demands(results)
         if self.options.surrogate:
             z = numpy.array([points.z(number) for number in range(points.samples)])
@@ -199,9 +212,11 @@ class Answer:
                 return results
 
     def say_demands(self, results: list[Result], weights: Any = None) -> None:
-        """Percentiles and rank correlations of the demands. weights: of the results, where they represent different numbers of samples."""
+        """Percentiles and rank correlations of the demands. weights: of the results, where they represent different
+        numbers of samples."""
         numpy = need("numpy")
-        demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs", "margins"))
+        demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float)
+                                    for key in ("demands", "inputs", "margins"))
         for i, one in enumerate(self.asked.failures):
             found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence,
                               margins[:, i] if one.name in self.sample.limits.names else None, weights)
@@ -219,25 +234,31 @@ class Answer:
     def _say_matters(self, found: Demand) -> None:
         counting = [one for one in found.matters if abs(one.rank) > one.least]
         if not found.matters:
-            self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same in all samples or there are "
+            self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same "
+                            "in all samples or there are "
                             "fewer than 10")
             return
         names = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of the uncertain parameters"
-        self.output.say(f"{found.failure.name}: goes with {names} (rank correlation; chance alone makes {found.matters[0].least:.2f})")
+        self.output.say(f"{found.failure.name}: goes with {names} (rank correlation; chance alone makes "
+                        f"{found.matters[0].least:.2f})")
 
     def _surrogate(self, z: Any, margins: Any) -> None:
         """The estimate by a polynomial; a reason where the samples allow none."""
         known = plan(z.shape[1], len(z))
-        self.output.say(f"surrogate: polynomials up to degree {known.degree} of {z.shape[1]} numbers, chosen of {known.terms}, fitted to {len(z)} margins: "
+        self.output.say(f"surrogate: polynomials up to degree {known.degree} of {z.shape[1]} numbers, chosen of "
+                        f"{known.terms}, fitted to {len(z)} margins: "
                         f"about {known.seconds:.1g} s of a processor")
         try:
             with ticking("surrogate", known.seconds, not self.options.quiet and sys.stderr.isatty()):
                 found = Surrogate(z, margins)
         except ValueError as error:
-            self.output.note_text(f"surrogate: not assessed, because of {error}" + ("; compute more samples" if "must be" in str(error) else ""))
+            self.output.note_text(f"surrogate: not assessed, because of {error}"
+                                  + ("; compute more samples" if "must be" in str(error) else ""))
             return
-        self.report(f"{self.asked.of}, by a surrogate", found.estimate(self.asked.seed, confidence=self.asked.confidence))
-        self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "
+        self.report(f"{self.asked.of}, by a surrogate",
+                    found.estimate(self.asked.seed, confidence=self.asked.confidence))
+        self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} "
+                        "of "
                         f"{found.tested} margins with the wrong sign")
 
     def _subset(self, study: Study) -> None:
@@ -248,19 +269,23 @@ class Answer:
     def _indices(self, study: Study) -> None:
         draw = self.sample.draw
         groups = dict(zip(self.sample.inputs, [1] * len(draw.varies.scatters) + draw.sizes[1:]))
-        found: Indices = sobol_indices(study.evaluate(self.limit, self.scales), groups, self.options.indices, self.asked.seed, self.asked.confidence)
+        found: Indices = sobol_indices(study.evaluate(self.limit, self.scales), groups, self.options.indices,
+                                       self.asked.seed, self.asked.confidence)
         rows = []
         for i in sorted(range(len(found.names)), key=lambda i: -float(found.total[i])):
             self.output.say(f"{found.names[i]}: first order {found.first[i]:.3f} ({found.first_interval[i, 0]:.3f} .. "
-                            f"{found.first_interval[i, 1]:.3f}), total {found.total[i]:.3f} ({found.total_interval[i, 0]:.3f} .. "
+                            f"{found.first_interval[i, 1]:.3f}), total {found.total[i]:.3f} "
+                            f"({found.total_interval[i, 0]:.3f} .. "
                             f"{found.total_interval[i, 1]:.3f})")
-            rows.append([found.names[i], *(float(one) for one in (found.first[i], *found.first_interval[i], found.total[i],
-                                                                  *found.total_interval[i]))])
+            rows.append([found.names[i],
+                         *(float(one) for one in (found.first[i], *found.first_interval[i], found.total[i],
+                                                  *found.total_interval[i]))])
         self.output.summary["indices"] = {row[0]: {"first": row[1:4], "total": row[4:7]} for row in rows}
         self.output.summary["indices_lost_rows"] = found.lost
         above = [found.names[i] for i in range(len(found.names)) if found.first[i] > found.total[i]]
         if above:
-            self.output.note_text(f"{self.options.indices} rows are too few for these indices: the first-order index of {', '.join(above)} is above the total one, "
+            self.output.note_text(f"{self.options.indices} rows are too few for these indices: the first-order index "
+                                  f"of {', '.join(above)} is above the total one, "
                                   f"which contains it; ask --indices {4 * self.options.indices} or more")
         self.output.table("indices.csv", ["parameter", "first order", "low", "high", "total", "low", "high"], rows)
 
@@ -268,10 +293,12 @@ class Answer:
     def table(self, results: list[Result]) -> None:
         """All samples."""
         sample = self.sample
-        self.failing = {one.number: (min(one.margins) if self.scales else one.margins[self.limit]) <= 0.0 for one in results if usable(one.margins)}
+        self.failing = {one.number: (min(one.margins) if self.scales else one.margins[self.limit]) <= 0.0
+                        for one in results if usable(one.margins)}
         heads = ["number", "status", "seconds", *sample.inputs, *(f"margin of {name}" for name in sample.names),
                  *(f"demand of {name}" for name in sample.names), "message"]
-        rows = ([one.number, "failed" if one.status == FAILED else "done", one.seconds, *one.inputs, *one.margins, *one.demands,
+        rows = ([one.number, "failed" if one.status == FAILED else "done", one.seconds, *one.inputs, *one.margins,
+                 *one.demands,
                  one.message] for one in results)
         self.output.table("samples.csv", heads, rows)
 
@@ -283,14 +310,17 @@ class Answer:
         seconds = math.fsum(one.seconds for one in study.results.values())
         elapsed = clock.monotonic() - self.started
         self.output.summary.update(
-            seed=self.asked.seed, method=self.asked.method, engine=self.options.engine, dimension=self.sample.dimension, question=self.question,
+            seed=self.asked.seed, method=self.asked.method, engine=self.options.engine, dimension=self.sample.dimension,
+            question=self.question,
             samples=len(study.results), evaluated=study.evaluated, seconds_of_samples=seconds, elapsed=elapsed,
             lost=[{"number": n, "message": study.results[n].message} for n in lost[:1000]])
         for number in lost[:3]:
-            self.output.note_text(f"sample {number} (seed {self.asked.seed}) has no margin: {study.results[number].message}")
+            self.output.note_text(f"sample {number} (seed {self.asked.seed}) has no margin: "
+                                  f"{study.results[number].message}")
         if len(lost) > 3:
             self.output.note_text(f"{len(lost)} samples have no margin; summary.json has the first 1000 of them")
         rate = study.evaluated / elapsed if elapsed > 0.0 else 0.0
-        self.output.say(f"{study.evaluated} samples computed in {elapsed:.1f} s, {rate:.3g} a second, {seconds / max(1, len(study.results)):.3g} "
+        self.output.say(f"{study.evaluated} samples computed in {elapsed:.1f} s, {rate:.3g} a second, "
+                        f"{seconds / max(1, len(study.results)):.3g} "
                         f"s of a processor each; {os.path.basename(self.options.scene)}, seed {self.asked.seed}")
         return self.output.finish(1 if study.results and len(lost) == len(study.results) else 0)

@@ -58,8 +58,10 @@ def probability(options: argparse.Namespace) -> int:
     path = pathlib.Path(options.scene)
     known = load(path)  # SceneError names each fault
     if known.variability is None or not known.failures:
-        missing = " and ".join(name for name, there in (("[variability]", known.variability), ("[[failure]]", known.failures)) if not there)
-        raise Usage(f"{path} has no {missing}. A scene of `drillmbd new` has them as commented lines at its end: take the # away there, or add lines, for example:\n\n" + LEAST)
+        missing = " and ".join(name for name, there in (("[variability]", known.variability),
+                                                        ("[[failure]]", known.failures)) if not there)
+        raise Usage(f"{path} has no {missing}. A scene of `drillmbd new` has them as commented lines at its end: take "
+                    "the # away there, or add lines, for example:\n\n" + LEAST)
     question = options.question or known.variability.question
     sample = SceneSample(path.read_text(encoding="utf-8-sig"), str(path), str(path.parent.resolve()), _own(options.own),
                          asked="run" if question == "auto" else question)
@@ -88,7 +90,8 @@ def _with_mpi(sample: SceneSample, options: argparse.Namespace, question: str) -
     if size < 2:
         raise Usage("--engine mpi needs two ranks or more: mpirun -n 3 drillmbd probability ... --engine mpi")
     if question == "auto":
-        raise Usage("--engine mpi has one question at a time, and auto two: choose --question torque-drag, static or run, or another --engine")
+        raise Usage("--engine mpi has one question at a time, and auto two: choose --question torque-drag, static or "
+                    "run, or another --engine")
     if rank > 0:
         with engines.mpi_together():
             engines.mpi_work(sample)

@@ -29,7 +29,8 @@ class Assessed:
     @property
     def still(self) -> bool:
         """No drive of rotation ever turns, or there is none."""
-        if not any(name == "add_drive" and arguments[0].get("component") == RX for name, arguments in self.scenes[0].model.calls):
+        if not any(name == "add_drive" and arguments[0].get("component") == RX
+                   for name, arguments in self.scenes[0].model.calls):
             return True
         return all(plan.rotation == 0.0 for plan in self.plans)
 
@@ -45,7 +46,8 @@ class Assessed:
         if one.kind in BEARS and self.unloaded:
             return "the scene gives the bit no load; set load in [[bit]], or a rock law"
         if one.kind == "leaves-seam" and not any(Course(self.scenes[0]).off(other) for other in self.scenes[1:]):
-            return "nothing that varies changes the course of the hole; let the survey vary, as key = \"hole.survey.inclination\" in [[variability.field]]"
+            return ("nothing that varies changes the course of the hole; let the survey vary, as key = "
+                    "\"hole.survey.inclination\" in [[variability.field]]")
         return ""
 
     def refuse(self, failures: list[Failure]) -> None:
@@ -59,7 +61,8 @@ class Assessed:
         """Parts that the estimates leave out."""
         torques = [one.name for one in failures if one.kind in TORQUES]
         if self.question == "run" and self.still and torques:
-            return [f"{', '.join(torques)}: torque of rotation is not assessed, because no drive of rotation turns in this scene"]
+            return [f"{', '.join(torques)}: torque of rotation is not assessed, because no drive of rotation turns in "
+                    "this scene"]
         return []
 
 

@@ -1,13 +1,16 @@
-"""The question auto: torque and drag of all samples, and runs in time only of those near a limit and of a random part of the others.
+"""The question auto: torque and drag of all samples, and runs in time only of those near a limit and of a random part
+of the others.
 
-A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the probability part_of, by a
-random number of its own, so that each represents 1/part_of samples. With A the failures among the samples near a limit and, among the others, those that
-torque and drag predict, and with B+ and B- the shares of the others that fail in time against the prediction and that do not fail against it,
+A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the
+probability part_of, by a random number of its own, so that each represents 1/part_of samples. With A the failures among
+the samples near a limit and, among the others, those that torque and drag predict, and with B+ and B- the shares of the
+others that fail in time against the prediction and that do not fail against it,
 
-    P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)
+    P = A + B+ - B-                                                                (difference estimator, Cochran 1977,
+    section 12)
 
-is unbiased although torque and drag is a simpler model. Failures that only a run shows are predicted in no sample: B+ alone finds them. Percentiles of
-the demands are those of the runs by these weights (demands.weighted_percentile)."""
+is unbiased although torque and drag is a simpler model. Failures that only a run shows are predicted in no sample: B+
+alone finds them. Percentiles of the demands are those of the runs by these weights (demands.weighted_percentile)."""
 from __future__ import annotations
 
 import math
@@ -35,13 +38,15 @@ def part_of(samples: int) -> float:
 
 
 def chosen(seed: int, number: int, part: float) -> bool:
-    """Whether a sample that is not near a limit is run; one that is chosen for a small part is chosen for a larger one too."""
+    """Whether a sample that is not near a limit is run; one that is chosen for a small part is chosen for a larger one
+    too."""
     return bool(stream(seed, (1 << 61) + (1 << 60) + number).random() < part)
 
 
 @dataclass
 class Stage:
-    """Samples of both stages: predictions of torque and drag, which of them are near a limit, which are run, which fail in time."""
+    """Samples of both stages: predictions of torque and drag, which of them are near a limit, which are run, which fail
+    in time."""
     predicted: Any
     near: Any
     ran: Any      #: with a margin
@@ -50,7 +55,8 @@ class Stage:
     part: float   #: of the samples that are not near a limit
 
     def estimate(self, confidence: float) -> Estimate:
-        """P with the interval that holds for its three parts together (Bonferroni): counts of a part each, by Clopper and Pearson."""
+        """P with the interval that holds for its three parts together (Bonferroni): counts of a part each, by Clopper
+        and Pearson."""
         numpy, samples = need("numpy"), len(self.predicted)
         near, far = self.near & self.ran, ~self.near & self.ran
         parts = 1.0 - (1.0 - confidence) / 3.0
@@ -67,9 +73,12 @@ class Stage:
             value += sign * (wrong / looked if looked else 0.0) * count / samples
             low, high = (low, high + ends[1] * share) if sign > 0.0 else (low - ends[1] * share, high)
         run = int(self.ran.sum())
-        value = float(numpy.clip(value, 0.0, 1.0)) if run or not self.lost else math.nan  # torque and drag alone is no estimate
-        return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples, int((self.ran & self.failed).sum()), self.lost,
-                        f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} of them near a limit with the "
+        # torque and drag alone is no estimate
+        value = float(numpy.clip(value, 0.0, 1.0)) if run or not self.lost else math.nan
+        return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples,
+                        int((self.ran & self.failed).sum()), self.lost,
+                        f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} "
+                        "of them near a limit with the "
                         f"weight 1 and {int(far.sum())} others with the weight {1.0 / self.part:.4g}",
                         {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / self.part})
 
@@ -86,7 +95,8 @@ class Auto(Answer):
         super().__init__(asked, output)
         self.question = "auto"
         if asked.sampling != "monte-carlo" or asked.rule is not None or asked.options.surrogate:
-            raise Usage("--question auto is a Monte Carlo study: leave --indices, --until, --surrogate and other methods out")
+            raise Usage("--question auto is a Monte Carlo study: leave --indices, --until, --surrogate and other "
+                        "methods out")
         whole = asked.sample
         self.quick = SceneSample(whole.text, whole.name, whole.folder, whole.own, whole.changes, "torque-drag", True)
 
@@ -97,8 +107,10 @@ class Auto(Answer):
         for text in self.quick.soft.notes():
             self.output.note_text(text)
         dynamic = [one.name for one in asked.failures if "torque-drag" not in KINDS[one.kind].questions]
-        self.output.say(f"question auto: torque and drag of all samples; runs in time where they leave less than {100 * NEAR:g} % of a limit, and of "
-                        f"{100 * part_of(asked.samples):.3g} % of the others" + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
+        self.output.say("question auto: torque and drag of all samples; runs in time where they leave less than "
+                        f"{100 * NEAR:g} % of a limit, and of "
+                        f"{100 * part_of(asked.samples):.3g} % of the others"
+                        + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
         points = Points("monte-carlo", asked.seed, whole.dimension, asked.samples)
         soft = self.study(self.quick, "study_torque_drag.h5")
         study = None
@@ -113,7 +125,8 @@ class Auto(Answer):
                 if one is not None:
                     self.close(one)
         seconds = math.fsum(one.seconds for one in soft.results.values())
-        self.output.say(f"torque and drag: {soft.evaluated} samples computed, {seconds / max(1, len(soft.results)):.3g} s of a processor each")
+        self.output.say(f"torque and drag: {soft.evaluated} samples computed, "
+                        f"{seconds / max(1, len(soft.results)):.3g} s of a processor each")
         self.output.summary.update(torque_drag_samples=len(soft.results), seconds_of_torque_drag=seconds)
         return self.finish(study or soft)
 
@@ -123,25 +136,29 @@ class Auto(Answer):
         margins = numpy.array([one.margins for one in quick]) / numpy.array([scale[name] for name in self.quick.names])
         least = margins.min(axis=1)  # NaN of a sample without torque and drag: run
         near = ~(abs(margins).min(axis=1) > NEAR)
-        run = [number for number in range(asked.samples) if near[number] or chosen(asked.seed, number, part_of(asked.samples))]
+        run = [number for number in range(asked.samples) if near[number]
+               or chosen(asked.seed, number, part_of(asked.samples))]
         results = study.run(run, points.z)
         found = numpy.full((asked.samples, len(self.sample.names)), math.nan)
         for one in results:
             found[one.number] = one.margins
         for i, name in enumerate(self.sample.names):
-            soft = margins[:, self.quick.names.index(name)] if name in self.quick.names else numpy.full(asked.samples, math.inf)
+            soft = (margins[:, self.quick.names.index(name)] if name in self.quick.names
+                    else numpy.full(asked.samples, math.inf))
             self._report_stages(name, soft, near, found[:, i], len(run))
         self._report_stages(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
         self._compare(margins, found, scale)
         if results:
             part = part_of(asked.samples)
-            self.say_demands(results, numpy.array([1.0 if near[one.number] or part >= 1.0 else 1.0 / part for one in results]))
+            self.say_demands(results, numpy.array([1.0 if near[one.number] or part >= 1.0 else 1.0 / part
+                                                   for one in results]))
         self.table(results)
 
     def _report_stages(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
         numpy = need("numpy")
         ran = ~numpy.isnan(found)
-        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()), part_of(self.asked.samples))
+        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()),
+                      part_of(self.asked.samples))
         self.report(name, stage.estimate(self.asked.confidence))
 
     def _compare(self, margins: Any, found: Any, scale: dict[str, float]) -> None:
@@ -155,6 +172,9 @@ class Auto(Answer):
             off = column[both] - margins[both, i]
             other = int(((column[both] <= 0.0) != (margins[both, i] <= 0.0)).sum())
             self.output.summary.setdefault("torque_drag_against_runs", {})[name] = {
-                "samples": int(both.sum()), "mean_of_limit": float(off.mean()), "largest_of_limit": float(abs(off).max()), "other_decisions": other}
-            self.output.say(f"{name}: in {int(both.sum())} samples that have both, the margin in time is larger than that of torque and drag by "
-                            f"{100 * off.mean():+.3g} % of the limit in the mean, {100 * abs(off).max():.3g} % at most; {other} decisions differ")
+                "samples": int(both.sum()), "mean_of_limit": float(off.mean()),
+                "largest_of_limit": float(abs(off).max()), "other_decisions": other}
+            self.output.say(f"{name}: in {int(both.sum())} samples that have both, the margin in time is larger than "
+                            "that of torque and drag by "
+                            f"{100 * off.mean():+.3g} % of the limit in the mean, {100 * abs(off).max():.3g} % at "
+                            f"most; {other} decisions differ")

@@ -1,5 +1,5 @@
-"""OpenBLAS on one thread: the sums in eigenvectors and products, and so their last digits, go with the number of threads,
-which workers, ranks and the parent do not share."""
+"""OpenBLAS on one thread: the sums in eigenvectors and products, and so their last digits, go with the number of
+threads, which workers, ranks and the parent do not share."""
 from __future__ import annotations
 
 import ctypes

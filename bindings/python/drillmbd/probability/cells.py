@@ -1,5 +1,5 @@
-"""A map: the study of a scene for all combinations of some of its values, with the same random numbers in each, so that differences between
-cells are those of the values."""
+"""A map: the study of a scene for all combinations of some of its values, with the same random numbers in each, so that
+differences between cells are those of the values."""
 from __future__ import annotations
 
 import argparse
@@ -39,7 +39,8 @@ class Cell:
     message: str = ""                                       #: why it has no answer
     estimates: dict[str, Estimate] = field(default_factory=dict)
     demands: dict[str, Demand] = field(default_factory=dict)
-    failing: dict[int, bool] = field(default_factory=dict)  #: samples with margins, by number: any failure, or that of --failure
+    #: samples with margins, by number: any failure, or that of --failure
+    failing: dict[int, bool] = field(default_factory=dict)
     dimension: int = 0
 
     @property
@@ -60,7 +61,8 @@ def _varied(texts: list[str], content: dict[str, Any]) -> list[tuple[str, list[A
         raise Usage("--vary: each key once")
     settings = [one for one in keys if re.fullmatch(r"variability\.\w+", one)]
     if settings:
-        raise Usage(f"--vary {settings[0]}: is a setting of the study, which all cells have in common; change it in the scene or by an option of the command")
+        raise Usage(f"--vary {settings[0]}: is a setting of the study, which all cells have in common; change it in "
+                    "the scene or by an option of the command")
     count = math.prod(len(values) for _, values in found)
     if count > MOST_CELLS:
         raise Usage(f"--vary asks for {count} cells, must be <= {MOST_CELLS}")
@@ -86,31 +88,36 @@ class Map:
         """Keys that each sample writes again: the values of --vary would be lost."""
         from ..sweep import keys_of
         varies = self.sample.draw.varies
-        parts = [("scatter", i, one) for i, one in enumerate(varies.scatters)] + [("field", i, one) for i, one in enumerate(varies.fields)]
+        parts = [("scatter", i, one)
+                 for i, one in enumerate(varies.scatters)] + [("field", i, one) for i, one in enumerate(varies.fields)]
         written = {_plain(key): (table, i, one.name) for table, i, one in parts if not one.relative for key in one.keys}
         for text, _ in self.vary:
             for key in keys_of(text):
                 plain = _plain(by_number(key, self.content))
                 if plain in written:
                     table, i, name = written[plain]
-                    raise Usage(f"--vary {key}: each sample has a value of its own, of {name}, so that these would be lost; vary a parameter of the "
+                    raise Usage(f"--vary {key}: each sample has a value of its own, of {name}, so that these would be "
+                                "lost; vary a parameter of the "
                                 f"distribution, as variability.{table}[{i}].mean, or make it relative = true")
 
     def answer(self) -> int:
         """All cells, then the map; returns the exit status: 1 where a cell has no result."""
-        status, lock = 0, Lock(self.output.folder / "map", "--output folder") if self.output.folder else None  # a second master is refused here, not by each cell
+        # a second master is refused here, not by each cell
+        status, lock = 0, Lock(self.output.folder / "map", "--output folder") if self.output.folder else None
         try:
             for number, values in enumerate(itertools.product(*(listed for _, listed in self.vary)), 1):
                 self.cells.append(self._cell(number, dict(zip((key for key, _ in self.vary), values))))
         except KeyboardInterrupt:
-            self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells" + ("; the same command continues from there" if self.output.folder else ""))
+            self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells"
+                                + ("; the same command continues from there" if self.output.folder else ""))
         finally:
             if lock is not None:
                 lock.release()
         if any(one.message for one in self.cells) or not self.cells:
             status = FAILED
         if len({one.dimension for one in self.cells if not one.message}) > 1:
-            self.output.note_text("the cells have different numbers of random numbers, because fields or processes have other lengths: they are not common")
+            self.output.note_text("the cells have different numbers of random numbers, because fields or processes "
+                                  "have other lengths: they are not common")
         self._write()
         return self.output.finish(status)
 
@@ -118,10 +125,12 @@ class Map:
         from ..sweep import settings_of
         cell, file = Cell(values), self.options.scene
         whole, folder = self.sample, self.output.folder
-        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **settings_of(values)}, whole.asked)
+        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **settings_of(values)},
+                             whole.asked)
         try:
             asked = Asked(sample, self.options)
-            output = CommandOutput(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene, "probability", True)
+            output = CommandOutput(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene,
+                                   "probability", True)
             made = Auto(asked, output) if self.question == "auto" else Answer(asked, output)
             status = carry_out(sample.draw.scene, output, self.options, lambda *_: made.answer())
             if status == STOPPED:
@@ -139,8 +148,10 @@ class Map:
 
     def _say(self, number: int, cell: Cell) -> None:
         one = cell.estimates.get(self.options.failure or ANY)
-        text = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})" if one else "no estimate")
-        text += "".join(f", P{demand.worst.percent} of {name} {amount(demand.worst.value, KINDS[demand.failure.kind].unit)}"
+        text = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})"
+                                if one else "no estimate")
+        text += "".join(f", P{demand.worst.percent} of {name} "
+                        f"{amount(demand.worst.value, KINDS[demand.failure.kind].unit)}"
                         for name, demand in cell.demands.items())
         self.output.say(f"cell {number}: {cell.words}: {text}")
 
@@ -149,26 +160,34 @@ class Map:
         keys = [key for key, _ in self.vary]
         first = next((one for one in self.cells if not one.message), None)
         names, demands = list(first.estimates) if first else [], list(first.demands) if first else []
-        heads = [*keys, *(head for name in names for head in (f"probability of {name}", f"low of {name}", f"high of {name}")),
-                 *(f"P{percent} demand of {name} [{KINDS[first.demands[name].failure.kind].unit}]" for name in demands for percent in (5, 50, 95) if first),
+        heads = [*keys, *(head for name in names for head in (f"probability of {name}", f"low of {name}",
+                                                              f"high of {name}")),
+                 *(f"P{percent} demand of {name} [{KINDS[first.demands[name].failure.kind].unit}]" for name in demands
+                   for percent in (5, 50, 95) if first),
                  *(f"P95 demand of {name}: {end}" for name in demands for end in ("low", "high")),
                  *(f"share of the limit at P95 of {name} [-]" for name in demands),
                  "fails only here", "fails only in the first cell", "chance of so unequal counts", "message"]
-        rows = [[*one.values.values(), *self._numbers(one, names, demands), *self._against(first, one), one.message] for one in self.cells]
+        rows = [[*one.values.values(), *self._numbers(one, names, demands), *self._against(first, one), one.message]
+                for one in self.cells]
         self.output.table("map.csv", heads, rows)
-        self.output.summary["cells"] = [{"values": {key: str(value) for key, value in one.values.items()}, "message": one.message,
-                                         "estimates": {name: vars(estimate) for name, estimate in one.estimates.items()},
-                                         "demands": {name: demand.record() for name, demand in one.demands.items()}} for one in self.cells]
+        self.output.summary["cells"] = [{"values": {key: str(value) for key, value in one.values.items()},
+                                         "message": one.message,
+                                         "estimates": {name: vars(estimate)
+                                                       for name, estimate in one.estimates.items()},
+                                         "demands": {name: demand.record() for name, demand in one.demands.items()}}
+                                        for one in self.cells]
         self._pairs()
         self._flat()
         wide = [one for one in self.vary if len(one[1]) > 1] or self.vary[:1]
         if first and len(wide) <= 2:
-            self.output.picture("map.png", lambda plots: plots.probability_map(wide, self._grid(), self.options.failure or ANY))
+            self.output.picture("map.png", lambda plots: plots.probability_map(wide, self._grid(),
+                                                                               self.options.failure or ANY))
 
     def _grid(self) -> list[Any]:
         """Probability and interval of each cell in order; None where there is no result."""
         name = self.options.failure or ANY
-        found = [(one.estimates[name].probability, one.estimates[name].low, one.estimates[name].high) if name in one.estimates else None for one in self.cells]
+        found = [(one.estimates[name].probability, one.estimates[name].low, one.estimates[name].high)
+                 if name in one.estimates else None for one in self.cells]
         return found + [None] * (math.prod(len(values) for _, values in self.vary) - len(found))
 
     @staticmethod
@@ -179,11 +198,13 @@ class Map:
         known = [cell.demands.get(name) for name in demands]
         return [*(number for name in names for number in of(name)),
                 *(one.percentiles[i].value if one else math.nan for one in known for i in range(3)),
-                *(end for one in known for end in ((one.percentiles[-1].low, one.percentiles[-1].high) if one else (math.nan, math.nan))),
+                *(end for one in known for end in ((one.percentiles[-1].low, one.percentiles[-1].high) if one
+                                                   else (math.nan, math.nan))),
                 *(one.percentiles[-1].share if one else math.nan for one in known)]
 
     def _against(self, first: Cell | None, cell: Cell) -> list[Any]:
-        """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal counts."""
+        """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal
+        counts."""
         found = paired(first, cell) if first is not None and self.question != "auto" else None
         return ["", "", ""] if found is None else [found.more, found.fewer, found.chance]
 
@@ -191,19 +212,26 @@ class Map:
     def _pairs(self) -> None:
         """Pairs of cells that differ by one step of one key, as a table and, where they are few, as lines."""
         if self.question == "auto":
-            self.output.note_text("pairs of cells are not compared, because the question auto runs other samples in each cell; ask --question run")
+            self.output.note_text("pairs of cells are not compared, because the question auto runs other samples in "
+                                  "each cell; ask --question run")
             return
         found = [(key, a, b, one) for key, a, b in self._neighbours() if (one := paired(a, b)) is not None]
-        rows = [[key, a.values[key], b.values[key], *(value for other, value in a.values.items() if other != key), one.samples, one.more, one.fewer,
+        rows = [[key, a.values[key], b.values[key], *(value for other, value in a.values.items() if other != key),
+                 one.samples, one.more, one.fewer,
                  one.chance, one.word] for key, a, b, one in found]
         if not rows:
             return
-        self.output.table("pairs.csv", ["key", "from", "to", *(f"other value {i + 1}" for i in range(len(self.vary) - 1)), "samples", "fail only after",
-                                        "fail only before", "chance of so unequal counts", "probability"], rows)
-        self.output.summary["pairs"] = [{"key": key, "from": a.values, "to": b.values, **vars(one), "probability": one.word} for key, a, b, one in found]
+        self.output.table("pairs.csv",
+                          ["key", "from", "to", *(f"other value {i + 1}" for i in range(len(self.vary) - 1)), "samples",
+                           "fail only after",
+                           "fail only before", "chance of so unequal counts", "probability"], rows)
+        self.output.summary["pairs"] = [{"key": key, "from": a.values, "to": b.values, **vars(one),
+                                         "probability": one.word} for key, a, b, one in found]
         for key, a, b, one in found if len(found) <= MOST_LINES else []:
-            others = ", ".join(f"{other} = {value}" for other, value in a.values.items() if other != key and len(dict(self.vary)[other]) > 1)
-            self.output.say(f"{key} from {a.values[key]} to {b.values[key]}" + (f", at {others}" if others else "") + f": {one.more} more fail and {one.fewer} "
+            others = ", ".join(f"{other} = {value}" for other, value in a.values.items() if other != key
+                               and len(dict(self.vary)[other]) > 1)
+            self.output.say(f"{key} from {a.values[key]} to {b.values[key]}" + (f", at {others}" if others else "")
+                            + f": {one.more} more fail and {one.fewer} "
                             f"fewer of the same {one.samples} samples, {one.words}")
 
     def _flat(self) -> None:
@@ -211,12 +239,14 @@ class Map:
         most: dict[str, float] = {}
         for key, a, b in self._neighbours():
             if not a.message and not b.message and (a.demands or b.demands):
-                most[key] = max(most.get(key, 0.0), *(_change(a.demands.get(name), b.demands.get(name)) for name in a.demands.keys() | b.demands.keys()))
+                most[key] = max(most.get(key, 0.0), *(_change(a.demands.get(name), b.demands.get(name))
+                                                      for name in a.demands.keys() | b.demands.keys()))
         for key, change in most.items():
             if change < FLAT:
-                left_out = "; this question leaves out dynamics, on which speed and feed act: ask --question run or auto" if self.question in (
-                    "torque-drag", "static") else ""
-                self.output.note_text(f"{key} changes no percentile of a demand by more than {100.0 * change:.2g} %{left_out}")
+                left_out = "; this question leaves out dynamics, on which speed and feed act: ask --question run or " \
+                    "auto" if self.question in ("torque-drag", "static") else ""
+                self.output.note_text(f"{key} changes no percentile of a demand by more than {100.0 * change:.2g} "
+                                      f"%{left_out}")
 
     def _neighbours(self) -> list[tuple[str, Cell, Cell]]:
         by_index = dict(zip(itertools.product(*(range(len(values)) for _, values in self.vary)), self.cells))
@@ -230,11 +260,14 @@ class Map:
 
 
 def _change(a: Demand | None, b: Demand | None) -> float:
-    """Largest relative difference of the percentiles of a demand, or of its limit; 1 where a cell has none, or its samples have limits of their own."""
+    """Largest relative difference of the percentiles of a demand, or of its limit; 1 where a cell has none, or its
+    samples have limits of their own."""
     if a is None or b is None or a.limit_varies or b.limit_varies:
         return 1.0
-    values = [(one.value, other.value) for one, other in zip(a.percentiles, b.percentiles)] + [(a.failure.limit, b.failure.limit)]
-    return max(0.0 if x == y else min(1.0, abs(x - y) / max(abs(x), abs(y))) if math.isfinite(x) and math.isfinite(y) else 1.0 for x, y in values)
+    values = [(one.value, other.value)
+              for one, other in zip(a.percentiles, b.percentiles)] + [(a.failure.limit, b.failure.limit)]
+    return max(0.0 if x == y else min(1.0, abs(x - y) / max(abs(x), abs(y))) if math.isfinite(x) and math.isfinite(y)
+               else 1.0 for x, y in values)
 
 
 @dataclass(frozen=True)
@@ -250,7 +283,8 @@ class Pair:
         """The effect, the difference of the probabilities and the test."""
         if not self.samples:
             return self.word
-        return f"{(self.more - self.fewer) / self.samples:+.3g}: {self.word} (exact McNemar test, p = {self.chance:.2g})"
+        return (f"{(self.more - self.fewer) / self.samples:+.3g}: {self.word} (exact McNemar test, p = "
+                f"{self.chance:.2g})")
 
     @property
     def word(self) -> str:

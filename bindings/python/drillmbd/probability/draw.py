@@ -6,7 +6,8 @@ import re
 from typing import Any
 
 from .._optional import need
-from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_PERIODIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE, SegmentKind
+from ..enums import (SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_PERIODIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE,
+                     SegmentKind)
 from ..scene import Scene
 from ..scene.fields import word_of
 from ..scene.segments import value_at
@@ -28,21 +29,24 @@ def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
         kind = segment.get("kind", SEGMENT_TABLE if segment.get("table") else SEGMENT_CONSTANT)
         if kind in (SEGMENT_TABLE, SEGMENT_PERIODIC):
             times, values = zip(*segment["table"])
-            total += float(numpy.interp(time, times, values, period=times[-1] - times[0] if kind == SEGMENT_PERIODIC else None))
+            total += float(numpy.interp(time, times, values, period=times[-1] - times[0] if kind == SEGMENT_PERIODIC
+                                        else None))
         elif kind == SEGMENT_STEP5:
             d = min(max((time - segment.get("x0", 0.0)) / (segment.get("x1", 1.0) - segment.get("x0", 0.0)), 0.0), 1.0)
-            total += segment.get("h0", 0.0) + (segment.get("h1", 0.0) - segment.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
+            total += segment.get("h0", 0.0) + (segment.get("h1", 0.0)
+                                               - segment.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
         elif kind in (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC):
             total += value_at(time, segment)
         else:
-            raise CannotDraw(f"a segment of kind {word_of(SegmentKind(kind))} cannot be multiplied, because its values are known in the run only; use "
+            raise CannotDraw(f"a segment of kind {word_of(SegmentKind(kind))} cannot be multiplied, because its values "
+                             "are known in the run only; use "
                              "how = \"added\"")
     return total
 
 
 class Draw:
-    """The parts of z are those of the scattered parameters, then of each field, then of each process, in the order of the
-    scene file."""
+    """The parts of z are those of the scattered parameters, then of each field, then of each process, in the order of
+    the scene file."""
 
     def __init__(self, scene: Scene) -> None:
         if scene.variability is None:
@@ -52,22 +56,26 @@ class Draw:
                              for one in self.varies.parts}
         numpy = need("numpy")
         one_thread()
-        self.mix = numpy.linalg.cholesky(normal_correlation(self.varies)) if self.varies.scatters else numpy.zeros((0, 0))
+        self.mix = (numpy.linalg.cholesky(normal_correlation(self.varies)) if self.varies.scatters
+                    else numpy.zeros((0, 0)))
         self.fields: list[tuple[RandomField, Expansion]] = [(one, self._field(one)) for one in self.varies.fields]
         self.processes: list[tuple[RandomProcess, Expansion | Markov, Any]] = [
             (one, *self._process(one)) for one in self.varies.processes]
         self._refuse_both()
         self._refuse_twice()
-        self.sizes = [len(self.varies.scatters), *(made.modes for _, made in self.fields), *(made.modes for _, made, _ in self.processes)]
+        self.sizes = [len(self.varies.scatters), *(made.modes for _, made in self.fields),
+                      *(made.modes for _, made, _ in self.processes)]
         self.dimension = sum(self.sizes)
 
     def _refuse_both(self) -> None:
         """A time function that a process replaces loses its scattered values."""
         for one in self.varies.processes:
             key = f"time_function[{self._time_function_number(one)}]"
-            if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters for name in scatter.keys) \
+            if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters
+                   for name in scatter.keys) \
                     or sum(other.time_function == one.time_function for other in self.varies.processes) > 1:
-                raise CannotDraw(f"{one.name}: the time function {one.time_function} varies by another key, too; use two time functions")
+                raise CannotDraw(f"{one.name}: the time function {one.time_function} varies by another key, too; use "
+                                 "two time functions")
 
     def _refuse_twice(self) -> None:
         """A key that is written by two of them: one would be lost."""
@@ -79,7 +87,7 @@ class Draw:
                 if other != one.name and (key.startswith("hole") or isinstance(one, RandomField)):
                     raise CannotDraw(f"{key} varies by {other} and by {one.name}; only one of them may write it")
 
-    # ---- Where fields and processes live ------------------------------------------------------------------------------
+    # ---- Where fields and processes live -----------------------------------------------------------------------------
     def _depths(self, one: RandomField) -> Any:
         """[m] of the sections of a field along the hole, spread evenly from end to end."""
         count = max(1, round((one.ends[1] - one.ends[0]) / one.spacing))
@@ -139,12 +147,14 @@ class Draw:
         return self.values_of([z])[0]
 
     def values_of(self, many: Any) -> list[dict[str, Any]]:
-        """The values of several samples, of each the same as alone: products row by row, distributions of all rows at once."""
+        """The values of several samples, of each the same as alone: products row by row, distributions of all rows at
+        once."""
         numpy = need("numpy")
         rows = numpy.asarray(many, dtype=float)
         parts = [rows[:, end - size:end] for size, end in zip(self.sizes, numpy.cumsum(self.sizes))]
         correlated = numpy.array([self.mix @ row for row in parts[0]])
-        found: dict[str, Any] = {one.name: self.translations[one.name](correlated[:, i]).tolist() for i, one in enumerate(self.varies.scatters)}
+        found: dict[str, Any] = {one.name: self.translations[one.name](correlated[:, i]).tolist()
+                                 for i, one in enumerate(self.varies.scatters)}
         made = [(one.name, how) for one, how in self.fields] + [(one.name, how) for one, how, _ in self.processes]
         found.update({name: self.translations[name](how.many(part)) for (name, how), part in zip(made, parts[1:])})
         return [{name: values[i] for name, values in found.items()} for i in range(len(rows))]
@@ -171,7 +181,8 @@ class Draw:
                     row[column] = row[column] * error if one.relative else row[column] + error
                     row[1] = min(max(row[1], 0.0), math.pi) if column == 1 else row[1]
             found["hole.survey_file"] = found["hole.survey_columns"] = None
-            found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))] for row in rows]
+            found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))]
+                                    for row in rows]
         along = [one for one, _ in self.fields if one.ends[1]]
         if along:
             found["hole.section"] = self._hole_sections(along, values)
@@ -179,12 +190,14 @@ class Draw:
             found[f"{key}.pipes"] = self._pipe_tables(key, values, found)
 
     def _hole_sections(self, along: list[RandomField], values: dict[str, Any]) -> list[dict[str, Any]]:
-        """Sections at all depths of all fields, lines between them. A parabola rounds each breakpoint (`transition`)."""
+        """Sections at all depths of all fields, lines between them. A parabola rounds each breakpoint
+        (`transition`)."""
         numpy = need("numpy")
         depths = sorted({float(depth) for one in along for depth in self._depths(one)})
         depths = [depth for i, depth in enumerate(depths) if i == 0 or depth - depths[i - 1] > 1e-6 * one_span(along)]
         room = min((b - a for a, b in zip(depths, depths[1:])), default=0.2)
-        tables: list[dict[str, Any]] = [{"depth": text(depth, "m"), "shape": "line", "transition": text(0.5 * room, "m")} for depth in depths]
+        tables: list[dict[str, Any]] = [{"depth": text(depth, "m"), "shape": "line",
+                                         "transition": text(0.5 * room, "m")} for depth in depths]
         for one in along:
             at = numpy.interp(depths, self._depths(one), values[one.name])
             for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):
@@ -199,8 +212,10 @@ class Draw:
         struct = known.fields_of(known.DEFINITIONS["pipes"])
         tables, at = [], 0
         for section, (count, fields) in enumerate(self._sections(string)):
-            own = {key: known.write(struct[key], value) for key, value in fields.items() if key in struct and key != "string"}
-            for key in [key for key in found if re.fullmatch(re.escape(string) + rf"\.pipes(\[{section}\])?\.\w+", key)]:
+            own = {key: known.write(struct[key], value) for key, value in fields.items() if key in struct
+                   and key != "string"}
+            for key in [key for key in found if re.fullmatch(re.escape(string) + rf"\.pipes(\[{section}\])?\.\w+",
+                                                             key)]:
                 own[key.rsplit(".", 1)[1]] = found[key]
             for pipe in range(count):
                 one = dict(own, count=1, **({"seed": int(fields.get("seed", 1)) + pipe}))
@@ -226,7 +241,8 @@ class Draw:
 
     def _segments(self, one: RandomProcess) -> list[dict[str, Any]]:
         """The described segments of the time function of a process."""
-        return list([arguments for name, arguments in self._parts() if name == "add_time_function"][self._time_function_number(one)])
+        return list([arguments for name, arguments in self._parts()
+                     if name == "add_time_function"][self._time_function_number(one)])
 
     def _time_function_number(self, one: RandomProcess) -> int:
         made = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_time_function"]
@@ -239,7 +255,8 @@ class Draw:
         if one.how == "added":
             rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
             return {f"time_function[{number}].segment": [*self._written(segments, unit), {"table": rows}]}
-        rows = [[text(float(t), "s"), text(value_of_segments(segments, float(t)) * float(v), unit)] for t, v in zip(times, factors)]
+        rows = [[text(float(t), "s"), text(value_of_segments(segments, float(t)) * float(v), unit)]
+                for t, v in zip(times, factors)]
         return {f"time_function[{number}].segment": [{"table": rows}]}
 
     def _written(self, segments: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:

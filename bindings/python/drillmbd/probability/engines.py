@@ -1,5 +1,5 @@
-"""Engines: where samples are computed. Each takes the sample function and tasks (number, z), and gives results as they come. A
-result depends on its number and z alone, so all engines give the same."""
+"""Engines: where samples are computed. Each takes the sample function and tasks (number, z), and gives results as they
+come. A result depends on its number and z alone, so all engines give the same."""
 from __future__ import annotations
 
 import collections
@@ -40,7 +40,7 @@ def serial(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
         yield sample(number, z)
 
 
-# ---- Threads -----------------------------------------------------------------------------------------------------------
+# ---- Threads ---------------------------------------------------------------------------------------------------------
 def threads(workers: int) -> Callable[..., Iterator[Result]]:
     """In threads of this process: the library runs without Python's lock, Python itself does not."""
     from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
@@ -63,10 +63,11 @@ def threads(workers: int) -> Callable[..., Iterator[Result]]:
     return run
 
 
-# ---- Processes ---------------------------------------------------------------------------------------------------------
+# ---- Processes -------------------------------------------------------------------------------------------------------
 def _work(sample: Any, pipe: Any, others: list[Any]) -> None:
     import signal
-    for one in others:  # the parent's ends, which a fork copies: with them open nobody would notice that the parent is gone
+    # the parent's ends, which a fork copies: with them open nobody would notice that the parent is gone
+    for one in others:
         one.close()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's
     while True:
@@ -115,7 +116,8 @@ class _Worker:
 
 
 def processes(workers: int) -> Callable[..., Iterator[Result]]:
-    """In processes. One that dies is replaced, and its sample begun again; a sample that kills TRIES of them has failed."""
+    """In processes. One that dies is replaced, and its sample begun again; a sample that kills TRIES of them has
+    failed."""
     def run(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
         sample.names  # made here, so that forked workers need not
         context = multiprocessing.get_context("fork" if "fork" in multiprocessing.get_all_start_methods() else None)
@@ -177,7 +179,7 @@ def _cause(status: int | None) -> str:
         return f"signal {-status}"
 
 
-# ---- MPI ---------------------------------------------------------------------------------------------------------------
+# ---- MPI -------------------------------------------------------------------------------------------------------------
 _TASK, _END = 1, 2
 
 
@@ -198,7 +200,8 @@ def mpi_together() -> Iterator[None]:
         rank, message = mpi_rank()[0], status_and_message(error)
         if message is None:
             traceback.print_exc()
-        print(f"drillmbd: rank {rank} of {mpi_rank()[1]} failed, all are ended: {message[1] if message else f'{type(error).__name__}: {error}'}",
+        print(f"drillmbd: rank {rank} of {mpi_rank()[1]} failed, all are ended: "
+              f"{message[1] if message else f'{type(error).__name__}: {error}'}",
               file=sys.stderr, flush=True)
         need("mpi4py.MPI").COMM_WORLD.Abort(message[0] if message else STATUS)
         raise
@@ -245,10 +248,11 @@ def mpi_end() -> None:
         world.send(None, dest=rank, tag=_END)
 
 
-# ---- Dask --------------------------------------------------------------------------------------------------------------
+# ---- Dask ------------------------------------------------------------------------------------------------------------
 def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Result]]:
-    """On a Dask cluster, or without an address on one of processes of this machine. Dask begins the samples of a dead worker again;
-    a sample that ends for another reason than its own, for example because the worker that held it was lost, is submitted again."""
+    """On a Dask cluster, or without an address on one of processes of this machine. Dask begins the samples of a dead
+    worker again; a sample that ends for another reason than its own, for example because the worker that held it was
+    lost, is submitted again."""
     def run(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
         distributed = need("distributed")
         if address is None:
@@ -261,11 +265,13 @@ def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Res
                 raise Usage(f"--address {address}: {error}; write HOST:PORT of a scheduler") from error
         with client:
             shared = client.scatter(sample, broadcast=True)
-            source, running = iter(tasks), dict[Any, tuple[tuple[int, Any], int]]()  # task and its number of submissions
+            # task and its number of submissions
+            source, running = iter(tasks), dict[Any, tuple[tuple[int, Any], int]]()
             coming = distributed.as_completed()
 
             def give(task: tuple[int, Any] | None, times: int) -> None:
-                if task is not None:  # again: with the sample itself, because the shared one may be lost with its worker
+                # again: with the sample itself, because the shared one may be lost with its worker
+                if task is not None:
                     future = client.submit(_call, shared if times == 1 else sample, *task, pure=False)
                     running[future.key] = (task, times)
                     coming.add(future)

@@ -1,6 +1,7 @@
 """Failure probabilities with their intervals.
 
-An `evaluate` takes the numbers of samples and their standard normal numbers, shape (n, dimension), and returns the margins, shape
+An `evaluate` takes the numbers of samples and their standard normal numbers, shape (n, dimension), and returns the
+margins, shape
 (n); NaN where a sample failed to be computed. A margin <= 0 is a failure."""
 from __future__ import annotations
 
@@ -25,12 +26,13 @@ class Estimate:
     method: str
     samples: int              #: asked for
     failures: int             #: margins <= 0
-    lost: int                 #: samples without a margin; the interval holds whether they fail or not, where the method allows it
+    #: samples without a margin; the interval holds whether they fail or not, where the method allows it
+    lost: int
     about: str = ""           #: how the interval was found
     more: dict[str, Any] = field(default_factory=dict)
 
 
-# ---- Counting ----------------------------------------------------------------------------------------------------------
+# ---- Counting --------------------------------------------------------------------------------------------------------
 def clopper_pearson(failures: int, samples: int, confidence: float) -> tuple[float, float]:
     """The exact interval of a share (eq:probability.clopper-pearson): never less than its confidence."""
     beta, rest = need("scipy.stats").beta, 0.5 * (1.0 - confidence)
@@ -58,20 +60,22 @@ def effective(probability: float, low: float, high: float, confidence: float) ->
 
 
 def counted(margins: Any, method: str = "monte-carlo", replicates: int = 1, confidence: float = 0.95) -> Estimate:
-    """From the margins of all samples in order. Samples without a margin count as safe for the lower end and as failures for
-    the upper one, and are left out of the probability."""
+    """From the margins of all samples in order. Samples without a margin count as safe for the lower end and as
+    failures for the upper one, and are left out of the probability."""
     numpy = need("numpy")
     margins = numpy.asarray(margins, dtype=float)
     known = ~numpy.isnan(margins)
     lost, failures, samples = int((~known).sum()), int((margins[known] <= 0.0).sum()), len(margins)
     probability = failures / (samples - lost) if samples > lost else math.nan
-    low, high = clopper_pearson(failures, samples, confidence)[0], clopper_pearson(failures + lost, samples, confidence)[1]
+    low, high = (clopper_pearson(failures, samples, confidence)[0],
+                 clopper_pearson(failures + lost, samples, confidence)[1])
     about = "Clopper-Pearson"
     if replicates > 1 and samples % replicates == 0 and failures + lost < samples and failures > 0:
         each = numpy.where(known, margins <= 0.0, False).reshape(replicates, -1).mean(axis=1)
         most = numpy.where(known, margins <= 0.0, True).reshape(replicates, -1).mean(axis=1)
         if numpy.count_nonzero(each) == replicates:  # each design saw failures; else its scatter is no estimate
-            # Counts are whole: designs may agree and all miss a part f of a sample; each sees it with the probability f.
+            # Counts are whole: designs may agree and all miss a part f of a sample; each sees it with the probability
+            # f.
             whole = clopper_pearson(0, replicates, confidence)[1] / (samples // replicates)
             low, high = max(0.0, students(each, confidence)[1] - whole), min(1.0, students(most, confidence)[2] + whole)
             about = f"Student's t of {replicates} independent designs, and a count's step"  # eq:probability.designs
@@ -89,15 +93,18 @@ def sampled(evaluate: Evaluate, points: Points, confidence: float = 0.95) -> Est
 HOPE = 3.0  #: a subset simulation goes on where failures are within so many times the levels that it has left
 
 
-# ---- Rare failures -----------------------------------------------------------------------------------------------------
+# ---- Rare failures ---------------------------------------------------------------------------------------------------
 class Subset:
-    """Subset simulation (eq:probability.subset) with conditional sampling of the normal numbers (eq:probability.conditional): a new
-    state is sqrt(1 - s^2) z + s xi, taken where its margin is below the level; s follows the share taken from level to level.
-    `replicates` independent ones, each of `each` samples a level; the interval is Student's t of their results, widened on both
-    sides by the largest bias that a run with this scatter can have, half of its squared coefficient of variation (the sum over
-    pairs of levels of Au and Beck's equation 29, all levels correlated). Numbers of samples: (replicate << 40) + count in the replicate."""
+    """Subset simulation (eq:probability.subset) with conditional sampling of the normal numbers
+    (eq:probability.conditional): a new state is sqrt(1 - s^2) z + s xi, taken where its margin is below the level; s
+    follows the share taken from level to level.
+    `replicates` independent ones, each of `each` samples a level; the interval is Student's t of their results, widened
+    on both sides by the largest bias that a run with this scatter can have, half of its squared coefficient of
+    variation (the sum over pairs of levels of Au and Beck's equation 29, all levels correlated). Numbers of samples:
+    (replicate << 40) + count in the replicate."""
 
-    def __init__(self, seed: int, dimension: int, each: int, replicates: int = 10, share: float = 0.1, levels: int = 12) -> None:
+    def __init__(self, seed: int, dimension: int, each: int, replicates: int = 10, share: float = 0.1,
+                 levels: int = 12) -> None:
         self.seed, self.dimension, self.replicates, self.share, self.levels = seed, dimension, replicates, share, levels
         self.chains = max(2, round(each * share))
         self.length = max(2, round(1.0 / share))
@@ -158,16 +165,18 @@ class Subset:
         return False
 
     def _hopeless(self, going: list[int], left: int) -> str:
-        """Why the replicates that continue will not reach a failure: their thresholds fall so slowly that HOPE times the levels that are left would
-        not do. "" where they may."""
+        """Why the replicates that continue will not reach a failure: their thresholds fall so slowly that HOPE times
+        the levels that are left would not do. "" where they may."""
         if not going or any(len(self.thresholds[r]) < 3 for r in going):
             return ""
         last = [self.thresholds[r][-1] for r in going]
         falls = [(self.thresholds[r][-3] - self.thresholds[r][-1]) / 2.0 for r in going]
         if any(fall > 0.0 and value <= HOPE * left * fall for value, fall in zip(last, falls)):
             return ""
-        return (f"ended after {len(self.thresholds[going[0]])} levels, because it cannot reach a failure: the smallest margins fall by "
-                f"{sum(falls) / len(falls):.3g} a level and {min(last):.3g} are left, for {left} more levels; nothing is known of the probability: ask for more samples a level, or "
+        return (f"ended after {len(self.thresholds[going[0]])} levels, because it cannot reach a failure: the smallest "
+                "margins fall by "
+                f"{sum(falls) / len(falls):.3g} a level and {min(last):.3g} are left, for {left} more levels; nothing "
+                "is known of the probability: ask for more samples a level, or "
                 "for plain samples and their percentiles")
 
     def _level(self, evaluate: Evaluate, going: list[int], z: Any, margins: Any, steps: Any, used: list[int]) -> None:
@@ -202,7 +211,7 @@ class Subset:
             steps[r] = min(1.0, max(0.05, steps[r] * math.exp(share - 0.44)))
 
 
-# ---- FORM --------------------------------------------------------------------------------------------------------------
+# ---- FORM ------------------------------------------------------------------------------------------------------------
 def _function(evaluate: Evaluate, dimension: int) -> Any:
     """An OpenTURNS function; samples are numbered in the order of the calls."""
     ot, numpy = need("openturns"), need("numpy")
@@ -234,7 +243,8 @@ def form(evaluate: Evaluate, dimension: int) -> Form:
     """The first-order reliability method (eq:probability.form; solver of Rackwitz and Fiessler 1978), by OpenTURNS."""
     ot, numpy = need("openturns"), need("numpy")
     function, count = _function(evaluate, dimension)
-    event = ot.ThresholdEvent(ot.CompositeRandomVector(function, ot.RandomVector(ot.Normal(dimension))), ot.LessOrEqual(), 0.0)
+    event = ot.ThresholdEvent(ot.CompositeRandomVector(function, ot.RandomVector(ot.Normal(dimension))),
+                              ot.LessOrEqual(), 0.0)
     solver = ot.AbdoRackwitz()
     solver.setMaximumIterationNumber(200)
     for name in ("AbsoluteError", "RelativeError", "ResidualError", "ConstraintError"):
@@ -246,10 +256,11 @@ def form(evaluate: Evaluate, dimension: int) -> Form:
     point = numpy.array(found.getStandardSpaceDesignPoint())
     beta = float(found.getHasoferReliabilityIndex()) * (-1.0 if found.getIsStandardPointOriginInFailureSpace() else 1.0)
     norm = float(point @ point)
-    return Form(beta, float(need("scipy.special").ndtr(-beta)), point, point * point / norm if norm > 0.0 else point, count[0])
+    return Form(beta, float(need("scipy.special").ndtr(-beta)), point, point * point / norm if norm > 0.0 else point,
+                count[0])
 
 
-# ---- What matters ------------------------------------------------------------------------------------------------------
+# ---- What matters ----------------------------------------------------------------------------------------------------
 @dataclass
 class Indices:
     """Sobol' indices of groups of numbers."""
@@ -262,10 +273,12 @@ class Indices:
     lost: int
 
 
-def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: int = 1, confidence: float = 0.95) -> Indices:
-    """Sobol' indices of the margin by Jansen's estimators (eq:probability.sobol) on scrambled Sobol' points, intervals by bootstrap
-    (OpenTURNS). groups: sizes of consecutive groups of the normal numbers by their names; a random field is one group. It takes
-    count (2 + groups) samples; a row of which one has no margin is left out."""
+def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: int = 1,
+                  confidence: float = 0.95) -> Indices:
+    """Sobol' indices of the margin by Jansen's estimators (eq:probability.sobol) on scrambled Sobol' points, intervals
+    by bootstrap
+    (OpenTURNS). groups: sizes of consecutive groups of the normal numbers by their names; a random field is one group.
+    It takes count (2 + groups) samples; a row of which one has no margin is left out."""
     ot, numpy = need("openturns"), need("numpy")
     dimension, names = sum(groups.values()), list(groups)
     points = Points("sobol", seed, 2 * dimension, count, 1)
@@ -285,7 +298,8 @@ def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: 
         raise ArithmeticError(f"{kept} of {len(good)} rows have all of their margins, must be >= 8")
     output = margins[:, good].reshape(-1, 1)
     if not numpy.isfinite(output).all():
-        raise ArithmeticError(f"{int((~numpy.isfinite(output)).sum())} of {output.size} margins are infinite, as where a string locks up; they have no variance "
+        raise ArithmeticError(f"{int((~numpy.isfinite(output)).sum())} of {output.size} margins are infinite, as where "
+                              "a string locks up; they have no variance "
                               "to share out: choose a failure by --failure whose demand stays finite")
     if numpy.ptp(output) == 0.0:
         raise ArithmeticError("the margin is the same in all samples; nothing that varies acts on it")
@@ -299,11 +313,12 @@ def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: 
         return numpy.stack([numpy.array(found.getLowerBound()), numpy.array(found.getUpperBound())], axis=1)
 
     return Indices(names, numpy.array(algorithm.getFirstOrderIndices()), numpy.array(algorithm.getTotalOrderIndices()),
-                   interval(algorithm.getFirstOrderIndicesInterval()), interval(algorithm.getTotalOrderIndicesInterval()),
+                   interval(algorithm.getFirstOrderIndicesInterval()),
+                   interval(algorithm.getTotalOrderIndicesInterval()),
                    len(z), len(good) - kept)
 
 
-# ---- Surrogate ---------------------------------------------------------------------------------------------------------
+# ---- Surrogate -------------------------------------------------------------------------------------------------------
 LEAST_Q2 = 0.6  #: of a surrogate whose interval is reported
 
 
@@ -324,8 +339,9 @@ def _enumeration(dimension: int) -> Any:
 
 
 def _count(dimension: int, degree: int) -> int:
-    """Polynomials in the first strata of equal hyperbolic degree (sum of a_i^0.6)^(1/0.6): 0, 1, 2 and 3 of one variable, then 3.17 of products of
-    two, a fourth degree where there is one variable only. Counted here because OpenTURNS counts them one by one."""
+    """Polynomials in the first strata of equal hyperbolic degree (sum of a_i^0.6)^(1/0.6): 0, 1, 2 and 3 of one
+    variable, then 3.17 of products of two, a fourth degree where there is one variable only. Counted here because
+    OpenTURNS counts them one by one."""
     if degree > 4:
         return int(_enumeration(dimension).getStrataCumulatedCardinal(degree))
     if degree < 4 or dimension == 1:
@@ -342,9 +358,9 @@ def plan(dimension: int, samples: int, degree: int = 4) -> Plan:
 
 
 class Surrogate:
-    """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The others give
-    its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many
-    margins have the wrong sign."""
+    """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The
+    others give its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error,
+    and how many margins have the wrong sign."""
 
     def __init__(self, z: Any, margins: Any, degree: int = 4) -> None:
         ot, numpy = need("openturns"), need("numpy")
@@ -352,7 +368,8 @@ class Surrogate:
         good = ~numpy.isnan(margins)
         z, margins = z[good], margins[good]
         if not numpy.isfinite(margins).all():
-            raise ValueError(f"{int((~numpy.isfinite(margins)).sum())} margins that are infinite, as where a string locks up, which no polynomial follows")
+            raise ValueError(f"{int((~numpy.isfinite(margins)).sum())} margins that are infinite, as where a string "
+                             "locks up, which no polynomial follows")
         if len(margins) and numpy.ptp(margins) == 0.0:
             raise ValueError("margins that are all the same")
         test = numpy.arange(len(z)) % 5 == 4
@@ -360,7 +377,8 @@ class Surrogate:
             raise ValueError(f"{len(z)} samples with margins, must be >= 10")
         self.dimension = z.shape[1]
         standard = ot.Normal(self.dimension)
-        basis = ot.OrthogonalProductPolynomialFactory([ot.HermiteFactory()] * self.dimension, _enumeration(self.dimension))
+        basis = ot.OrthogonalProductPolynomialFactory([ot.HermiteFactory()] * self.dimension,
+                                                      _enumeration(self.dimension))
         terms = plan(self.dimension, len(z), degree).terms
         selection = ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut())
         algorithm = ot.FunctionalChaosAlgorithm(ot.Sample(z[~test]), ot.Sample(margins[~test][:, None]), standard,
@@ -380,14 +398,15 @@ class Surrogate:
         return numpy.array(self.model(need("openturns").Sample(numpy.asarray(z, dtype=float)))).reshape(-1)
 
     def estimate(self, seed: int = 1, samples: int = 100_000, confidence: float = 0.95) -> Estimate:
-        """The probability by Monte Carlo on the surrogate. The interval's ends count margins that are twice the root mean square
-        error smaller and larger."""
+        """The probability by Monte Carlo on the surrogate. The interval's ends count margins that are twice the root
+        mean square error smaller and larger."""
         generator = stream(seed, (1 << 61))
         found = self(generator.standard_normal((samples, self.dimension)))
         failures, most, least = (int((found <= shift).sum()) for shift in (0.0, 2.0 * self.error, -2.0 * self.error))
         low, high = clopper_pearson(least, samples, confidence)[0], clopper_pearson(most, samples, confidence)[1]
         about = "margins shifted by twice the surrogate's error"
         if not self.q2 >= LEAST_Q2:
-            low, high, about = 0.0, 1.0, f"the surrogate explains too little: q2 = {self.q2:.3g}, must be >= {LEAST_Q2:g}"
+            low, high = 0.0, 1.0
+            about = f"the surrogate explains too little: q2 = {self.q2:.3g}, must be >= {LEAST_Q2:g}"
         return Estimate(failures / samples, low, high, confidence, "surrogate", samples, failures, 0, about,
                         {"q2": self.q2, "error": self.error, "wrong signs": self.wrong, "tested": self.tested})

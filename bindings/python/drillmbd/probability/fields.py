@@ -1,5 +1,5 @@
-"""Random fields and processes: standard normal numbers z, independent, to correlated ones at points (Karhunen and Loeve's
-expansion of the covariance matrix at these points, exact with all of its modes; eq:probability.field)."""
+"""Random fields and processes: standard normal numbers z, independent, to correlated ones at points (Karhunen and
+Loeve's expansion of the covariance matrix at these points, exact with all of its modes; eq:probability.field)."""
 from __future__ import annotations
 
 import functools

@@ -1,6 +1,6 @@
-"""Limit states: demand of a run for each failure, and its margin. A limit state asks for signals (series in time, looked at
-in regular intervals) and makes one number of them, the demand; the margin is limit - demand (demand - limit where
-little is bad; eq:probability.margin), below 0 in a failure."""
+"""Limit states: demand of a run for each failure, and its margin. A limit state asks for signals (series in time,
+looked at in regular intervals) and makes one number of them, the demand; the margin is limit - demand (demand - limit
+where little is bad; eq:probability.margin), below 0 in a failure."""
 from __future__ import annotations
 
 import math
@@ -19,15 +19,16 @@ from ..sim import Sim
 if TYPE_CHECKING:
     from ..scene import Scene
 
-#: Signals are named (part, quantity, extreme): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min" over it.
+#: Signals are named (part, quantity, extreme): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min"
+#: over it.
 COURSE = 100  #: stretches between the depths at which courses are compared
 STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
 
 
-# ---- From signals to a demand ------------------------------------------------------------------------------------------
+# ---- From signals to a demand ----------------------------------------------------------------------------------------
 def longest(times: Any, state: Any) -> float:
-    """[s] of the longest stretch in which the state is true: from the first to the last look at it, so that a state seen
-    once lasts 0."""
+    """[s] of the longest stretch in which the state is true: from the first to the last look at it, so that a state
+    seen once lasts 0."""
     best = begin = 0.0
     before = False
     for time, now in zip(times, state):
@@ -96,10 +97,11 @@ def _profile(quantity: int) -> dict[str, tuple[str, int, str]]:
     return {"value": ("string", int(quantity), "max")}
 
 
-# ---- From torque and drag to a demand ----------------------------------------------------------------------------------
+# ---- From torque and drag to a demand --------------------------------------------------------------------------------
 @dataclass
 class Soft:
-    """Torque and drag of one sample: rows of the operations by their word, the load on the bit, the largest wall force per length."""
+    """Torque and drag of one sample: rows of the operations by their word, the load on the bit, the largest wall force
+    per length."""
     rows: dict[str, TorqueDragRow]  #: "pulled out", "pushed in", "rotated"
     weight_on_bit: float       #: [N]
     yield_strength: float      #: [Pa] that the shares of the rows are of
@@ -132,7 +134,8 @@ class Course:
     """The course of the hole that a scene gives, as far as its strings reach."""
 
     def __init__(self, scene: Scene) -> None:
-        lengths = [arguments[0] * arguments[1].get("length", 1.0) for name, arguments in scene.model.calls if name == "add_pipes"]
+        lengths = [arguments[0] * arguments[1].get("length", 1.0) for name, arguments in scene.model.calls
+                   if name == "add_pipes"]
         self.depths = [math.fsum(lengths) * i / COURSE for i in range(COURSE + 1)]
         self.heights = self._heights(scene)
 
@@ -146,7 +149,8 @@ class Course:
 
 @dataclass(frozen=True)
 class How:
-    """The functions that find the demand of a kind from series in time or from torque and drag, and the outputs that the series are of."""
+    """The functions that find the demand of a kind from series in time or from torque and drag, and the outputs that
+    the series are of."""
     demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
     signals: dict[str, tuple[str, int, str]]  #: part, quantity, extreme: "", "max", "min" or "damage"
     soft: Callable[[Soft, dict[str, float]], float] | None = None
@@ -155,12 +159,15 @@ class How:
 C, P = enums.Quantity, enums.ProfileQuantity
 HOW: dict[str, How] = {
     "bit-stuck": How(_bit_stuck, {"spin": ("bit", C.SPIN, ""), "turning": ("head", C.DRIVE_SPEED, "")}),
-    "rig-torque": How(_magnitude, {"value": ("head", C.DRIVE_FORCE, "")}, lambda soft, v: soft.largest(lambda row: row.torque)),
-    "rig-push": How(_largest, {"value": ("feed", C.DRIVE_FORCE, "")}, lambda soft, v: soft.largest(lambda row: -row.hook_load)),
+    "rig-torque": How(_magnitude, {"value": ("head", C.DRIVE_FORCE, "")},
+                      lambda soft, v: soft.largest(lambda row: row.torque)),
+    "rig-push": How(_largest, {"value": ("feed", C.DRIVE_FORCE, "")},
+                    lambda soft, v: soft.largest(lambda row: -row.hook_load)),
     "rig-pull": How(lambda t, s, v: float(-s["value"].min()), {"value": ("feed", C.DRIVE_FORCE, "")},
                     lambda soft, v: math.inf if soft.rows["pulled out"].locked else soft.rows["pulled out"].hook_load),
     "lock-up": How(_lock_up, {"push": ("feed", C.DRIVE_FORCE, ""), "weight": ("bit", C.BIT_WEIGHT, "")}, _soft_lock_up),
-    "helical-buckling": How(_largest, _profile(P.HELICAL_SHARE), lambda soft, v: soft.largest(lambda row: row.helical_share)),
+    "helical-buckling": How(_largest, _profile(P.HELICAL_SHARE),
+                            lambda soft, v: soft.largest(lambda row: row.helical_share)),
     "stress": How(_over("strength"), _profile(P.VON_MISES),
                   lambda soft, v: soft.largest(lambda row: row.yield_share) * soft.yield_strength / v["strength"]),
     "connection-torque": How(_tightening, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")},
@@ -178,7 +185,8 @@ BESIDE = ("own", "leaves-seam")  #: kinds that a sample finds from its scene, no
 def margin_of(failure: Failure, demand: float) -> float:
     """limit - demand, or demand - limit where little is bad. NaN is refused: it is no margin."""
     if math.isnan(demand):
-        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks the parts that {failure.kind} needs")
+        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks the parts that {failure.kind} "
+                         "needs")
     return demand - failure.limit if KINDS[failure.kind].low else failure.limit - demand
 
 
@@ -187,8 +195,10 @@ def margin(failure: Failure, times: Any, signals: dict[str, Any]) -> tuple[float
     numpy, values = need("numpy"), failure.values
     keep = (times >= values.get("from", -math.inf)) & (times <= values.get("to", math.inf))
     if not keep.any():
-        raise ValueError(f"{failure.name}: no look at the run within from .. to; it was looked at {times[0]:g} .. {times[-1]:g} s")
-    demand = HOW[failure.kind].demand(times[keep], {name: numpy.asarray(one)[keep] for name, one in signals.items()}, values)
+        raise ValueError(f"{failure.name}: no look at the run within from .. to; it was looked at {times[0]:g} .. "
+                         f"{times[-1]:g} s")
+    demand = HOW[failure.kind].demand(times[keep], {name: numpy.asarray(one)[keep] for name, one in signals.items()},
+                                      values)
     return margin_of(failure, demand), demand
 
 
@@ -201,18 +211,20 @@ def soft_margin(failure: Failure, soft: Soft) -> tuple[float, float]:
     return margin_of(failure, demand), demand
 
 
-#: Sign of the section torque where a rig turns a string towards +x against a resistance, clockwise looking into the hole,
-#: which tightens right-hand threads: the far part holds back, so the moment that it exerts on the near one is < 0.
+#: Sign of the section torque where a rig turns a string towards +x against a resistance, clockwise looking into the
+#: hole, which tightens right-hand threads: the far part holds back, so the moment that it exerts on the near one is <
+#: 0.
 TORQUE_SIGN = -1.0
 
 
-# ---- Signals of a run ----------------------------------------------------------------------------------------------------
+# ---- Signals of a run ------------------------------------------------------------------------------------------------
 class Watch:
     """Takes the signals that some failures need, at each look."""
 
     def __init__(self, scene: Scene, sim: Sim, failures: list[Failure], looks: int) -> None:
         self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind not in BESIDE]
-        asked = {(one.names[part], quantity, what) for one in self.failures for part, quantity, what in HOW[one.kind].signals.values()}
+        asked = {(one.names[part], quantity, what) for one in self.failures
+                 for part, quantity, what in HOW[one.kind].signals.values()}
         self.outputs = sorted(one for one in asked if one[2] == "")
         self.profiles = sorted(one for one in asked if one[2] in ("max", "min"))
         self.counters = {one.name: self._fatigue(one) for one in self.failures if one.kind == "fatigue"}
@@ -223,7 +235,8 @@ class Watch:
 
     def _fatigue(self, one: Failure) -> Any:
         name = one.names["string"]
-        values: dict[str, Any] = {key: one.values[key] for key in ("curve_stress", "curve_cycles", "slope", "endurance", "concentration")}
+        values: dict[str, Any] = {key: one.values[key] for key in ("curve_stress", "curve_cycles", "slope", "endurance",
+                                                                   "concentration")}
         values["stress_range"] = 2.0 * self.scene.limits.get("yield_stress", 5e8)
         return self.sim.string_fatigue(self.scene.names[name], self.scene.pipes[name], **values)
 
@@ -242,7 +255,8 @@ class Watch:
         for name in dict.fromkeys(one[0] for one in self.profiles):
             mine = [(i, one) for i, one in enumerate(self.profiles) if one[0] == name]
             quantities = list(dict.fromkeys(one[1] for _, one in mine))
-            table = values_of(self.sim, self.scene.names[name], quantities, count=min(self.scene.pipes[name], STATIONS) + 1)
+            table = values_of(self.sim, self.scene.names[name], quantities,
+                              count=min(self.scene.pipes[name], STATIONS) + 1)
             for i, (_, quantity, what) in mine:
                 column = table[:, quantities.index(quantity)]
                 if not numpy.isnan(column).all():
@@ -267,10 +281,12 @@ class Watch:
         return found
 
     def margins(self, more: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-        """Margin and demand of each failure, by its name; more: added to demands by kind, for parts that a static state lacks."""
+        """Margin and demand of each failure, by its name; more: added to demands by kind, for parts that a static state
+        lacks."""
         times, found = need("numpy").array(self.times), {}
         for one in self.failures:
-            demand = margin(one, times, self.signals(one))[1] + more.get(one.kind, 0.0) / one.values.get("strength", 1.0)
+            demand = (margin(one, times, self.signals(one))[1] + more.get(one.kind, 0.0)
+                      / one.values.get("strength", 1.0))
             found[one.name] = (margin_of(one, demand), demand)
         return found
 

@@ -1,4 +1,5 @@
-"""Distributions by name and parameters, by SciPy: x = F^-1(Phi(z)) of a standard normal z (eq:probability.translation)."""
+"""Distributions by name and parameters, by SciPy: x = F^-1(Phi(z)) of a standard normal z
+(eq:probability.translation)."""
 from __future__ import annotations
 
 import math

@@ -1,7 +1,7 @@
-"""Rows of a study file, an HDF5 file behind a head of its own that describes the study. Each row carries a mark, which is a digest of that
-description, its place among the rows, and a check sum of its bytes. Rows are therefore read from the bytes of the file, without HDF5:
-damage is found, sound rows are recovered beside damaged ones, and no reader waits, as HDF5 does (SWMR) where a check sum of its own is
-wrong."""
+"""Rows of a study file, an HDF5 file behind a head of its own that describes the study. Each row carries a mark, which
+is a digest of that description, its place among the rows, and a check sum of its bytes. Rows are therefore read from
+the bytes of the file, without HDF5: damage is found, sound rows are recovered beside damaged ones, and no reader waits,
+as HDF5 does (SWMR) where a check sum of its own is wrong."""
 from __future__ import annotations
 
 import hashlib
@@ -17,7 +17,8 @@ from .._optional import need
 from .sample import Result
 
 LONGEST = 240  #: bytes of a message that are kept
-_TRIES, _PAUSE = 3, 0.05  #: readings of a file that another process writes, whose last rows may be seen half written; [s]
+#: readings of a file that another process writes, whose last rows may be seen half written; [s]
+_TRIES, _PAUSE = 3, 0.05
 
 
 class StudyError(ValueError):
@@ -30,7 +31,8 @@ class Damaged(StudyError):
     def __init__(self, path: Any, reason: str, rows: Any) -> None:
         self.rows = rows
         found = f"{len(rows)} sound {'row' if len(rows) == 1 else 'rows'}"
-        super().__init__(f"{path}: is damaged: {reason}; {found} can be recovered: drillmbd probability --salvage keeps them, computes the others again "
+        super().__init__(f"{path}: is damaged: {reason}; {found} can be recovered: drillmbd probability --salvage "
+                         "keeps them, computes the others again "
                          f"and leaves the damaged file beside as {pathlib.Path(path).name}.damaged")
 
 
@@ -40,12 +42,15 @@ _SUPERBLOCK = b"\x89HDF\r\n\x1a\n"
 
 def row_type(names: int, inputs: int) -> Any:
     """The row of a study with so many margins and inputs, without gaps."""
-    return need("numpy").dtype([("mark", "<u8"), ("row", "<i8"), ("number", "<i8"), ("status", "<i4"), ("seconds", "<f8"), ("margin", "<f8", (names,)),
-                                ("demand", "<f8", (names,)), ("input", "<f8", (inputs,)), ("message", f"S{LONGEST}"), ("check", "<u4")])
+    return need("numpy").dtype([("mark", "<u8"), ("row", "<i8"), ("number", "<i8"), ("status", "<i4"),
+                                ("seconds", "<f8"), ("margin", "<f8", (names,)),
+                                ("demand", "<f8", (names,)), ("input", "<f8", (inputs,)), ("message", f"S{LONGEST}"),
+                                ("check", "<u4")])
 
 
 def head_of(attributes: dict[str, str]) -> bytes:
-    """The head of a file: description and its check sum, in the size that HDF5 leaves free before its own (a power of 2)."""
+    """The head of a file: description and its check sum, in the size that HDF5 leaves free before its own (a power of
+    2)."""
     text = json.dumps(attributes).encode()
     head = MAGIC + b"%08x %d\n" % (zlib.crc32(text), len(text)) + text
     return head.ljust(max(512, 1 << (len(head) - 1).bit_length()), b"\0")
@@ -66,7 +71,8 @@ def packed(results: Sequence[Result], kind: Any, mark: int, first: int) -> Any:
     numpy = need("numpy")
     rows = numpy.zeros(len(results), kind)
     for place, (row, one) in enumerate(zip(rows, results)):
-        row["mark"], row["row"], row["number"], row["status"], row["seconds"] = mark, first + place, one.number, one.status, one.seconds
+        row["mark"], row["row"], row["number"], row["status"], row["seconds"] = (mark, first + place, one.number,
+                                                                                 one.status, one.seconds)
         row["margin"], row["demand"], row["input"] = one.margins, one.demands, one.inputs
         row["message"] = one.message.encode()[:LONGEST]
     size, data = kind.itemsize, memoryview(rows.tobytes())
@@ -76,7 +82,8 @@ def packed(results: Sequence[Result], kind: Any, mark: int, first: int) -> Any:
 
 def result(row: Any) -> Result:
     """A row as the result of its sample."""
-    return Result(int(row["number"]), int(row["status"]), [float(v) for v in row["margin"]], [float(v) for v in row["demand"]],
+    return Result(int(row["number"]), int(row["status"]), [float(v) for v in row["margin"]],
+                  [float(v) for v in row["demand"]],
                   [float(v) for v in row["input"]], float(row["seconds"]), row["message"].decode("utf-8", "replace"))
 
 
@@ -110,8 +117,8 @@ def _described(data: bytes) -> dict[str, str]:
 
 
 def _rows(data: bytes, kind: Any, mark: int) -> tuple[Any, str]:
-    """Rows by their mark, and evidence that some are damaged or missing. A row without its check sum, which is the last of it to be
-    written, was cut off when a process was killed: it is not damage."""
+    """Rows by their mark, and evidence that some are damaged or missing. A row without its check sum, which is the last
+    of it to be written, was cut off when a process was killed: it is not damage."""
     numpy, wanted, found, wrong = need("numpy"), mark.to_bytes(8, "little"), [], 0
     at = data.find(wanted)
     while at >= 0:
@@ -123,7 +130,8 @@ def _rows(data: bytes, kind: Any, mark: int) -> tuple[Any, str]:
     rows = numpy.frombuffer(b"".join(found), dtype=kind)
     missing = int(rows["row"].max()) + 1 - len(numpy.unique(rows["row"])) if len(rows) else 0
     if wrong or missing:
-        return once(rows), f"{max(wrong, missing)} of {max(len(rows) + wrong, len(rows) + missing)} rows are damaged or missing"
+        many = max(len(rows) + wrong, len(rows) + missing)
+        return once(rows), f"{max(wrong, missing)} of {many} rows are damaged or missing"
     return once(rows), ""
 
 
@@ -136,7 +144,8 @@ def end_of(data: bytes) -> int:
 def _cut(data: bytes) -> str:
     """The size that a file should have, where it has less."""
     end = end_of(data)
-    return "" if 0 < end <= len(data) else f"it has {len(data)} bytes, {end} were written" if end else "the beginning of its table is missing"
+    return ("" if 0 < end <= len(data) else f"it has {len(data)} bytes, {end} were written" if end
+            else "the beginning of its table is missing")
 
 
 def _read(path: Any) -> Content:
@@ -148,7 +157,8 @@ def _read(path: Any) -> Content:
 
 
 def content_of(path: Any) -> Content:
-    """The file; read again where rows seem damaged, because another process may be writing them. Raises StudyError, OSError."""
+    """The file; read again where rows seem damaged, because another process may be writing them. Raises StudyError,
+    OSError."""
     try:
         found = _read(path)
         for _ in range(_TRIES - 1):
@@ -162,8 +172,9 @@ def content_of(path: Any) -> Content:
 
 
 def read_rows(path: Any) -> tuple[Any, dict[str, str]]:
-    """The rows of a study file that are complete, a numpy array of records (mark, row, number, status, seconds, margin, demand, input,
-    message, check) in the order of number, and its attributes; also while another process writes it. A damaged file is refused (Damaged)."""
+    """The rows of a study file that are complete, a numpy array of records (mark, row, number, status, seconds, margin,
+    demand, input, message, check) in the order of number, and its attributes; also while another process writes it. A
+    damaged file is refused (Damaged)."""
     try:
         found = content_of(path)
     except OSError as error:

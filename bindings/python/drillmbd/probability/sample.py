@@ -46,7 +46,8 @@ class Own:
 
     def load(self) -> Callable[[OwnLook], float]:
         """The function."""
-        spec = importlib.util.spec_from_file_location("drillmbd_own_" + hashlib.sha256(self.file.encode()).hexdigest()[:12], self.file)
+        spec = importlib.util.spec_from_file_location("drillmbd_own_"
+                                                      + hashlib.sha256(self.file.encode()).hexdigest()[:12], self.file)
         if spec is None or spec.loader is None:
             raise ImportError(f"{self.file} is no file of Python")
         module = importlib.util.module_from_spec(spec)
@@ -123,7 +124,8 @@ class SceneSample:
         """Made once in each thread, whose samples change it; forked processes have that of their parent."""
         thread = threading.get_ident()
         if thread not in self._soft:
-            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw, [one for one in self.failures if one.kind not in BESIDE])
+            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw,
+                                            [one for one in self.failures if one.kind not in BESIDE])
         return self._soft[thread]
 
     @property
@@ -137,14 +139,17 @@ class SceneSample:
             self._refuse_others(scene.failures)
             missing = [one.name for one in scene.failures if one.kind == "own" and one.name not in self.own]
             if missing:
-                raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own {missing[0]}=FILE.py:NAME)")
+                raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own "
+                                 f"{missing[0]}=FILE.py:NAME)")
         return self._draw
 
     @property
     def limits(self) -> DrawnLimits:
         """Limits that vary. Made once in each process."""
         if self._limits is None:
-            self._limits = DrawnLimits(self.draw, lambda changes: loads(self.text, self.name, self.folder, {**self.changes, **changes, "variability": None}))
+            self._limits = DrawnLimits(self.draw, lambda changes: loads(self.text, self.name, self.folder,
+                                                                        {**self.changes, **changes,
+                                                                         "variability": None}))
         return self._limits
 
     def _refuse_others(self, failures: list[Failure]) -> None:
@@ -153,10 +158,12 @@ class SceneSample:
             if self.known or not self.asked:
                 continue
             if self.asked not in KINDS[one.kind].questions:
-                raise CannotDraw(f"failure {one.name} ({one.kind}): the question {self.asked} says nothing about it; ask --question "
+                raise CannotDraw(f"failure {one.name} ({one.kind}): the question {self.asked} says nothing about it; "
+                                 "ask --question "
                                  f"{' or '.join(KINDS[one.kind].questions)}, or auto, or take it out")
             if self.asked != "run" and one.values.get("from", 0.0) > 0.0:
-                raise CannotDraw(f"failure {one.name}: from = {one.values['from']:g} s is for runs in time, and the question is {self.asked}")
+                raise CannotDraw(f"failure {one.name}: from = {one.values['from']:g} s is for runs in time, and the "
+                                 f"question is {self.asked}")
 
     @property
     def dimension(self) -> int:
@@ -181,7 +188,8 @@ class SceneSample:
         return {**known, **{f"function {name}": source_of(function) for name, function in sorted(self.own.items())}}
 
     def __call__(self, number: int, z: Any) -> Result:
-        """A sample that the library refuses, or that does not converge, is FAILED with its message; never an exception."""
+        """A sample that the library refuses, or that does not converge, is FAILED with its message; never an
+        exception."""
         started = clock.thread_time()
         return self._result(number, self.draw.values(z), started)
 
@@ -194,12 +202,14 @@ class SceneSample:
 
     def _result(self, number: int, values: dict[str, Any], started: float) -> Result:
         count = len(self.names)
-        inputs = [value if isinstance(value, float) else float(value.mean()) for value in (values[name] for name in self.inputs)]
+        inputs = [value if isinstance(value, float) else float(value.mean())
+                  for value in (values[name] for name in self.inputs)]
         try:
             found = self._margins(values)
             margins, demands, status, message = [a for a, _ in found], [b for _, b in found], DONE, ""
         except (Error, SceneError, CannotSave, ArithmeticError, ValueError) as error:
-            margins, demands, status, message = [math.nan] * count, [math.nan] * count, FAILED, f"{type(error).__name__}: {error}"
+            margins, demands, status, message = ([math.nan] * count, [math.nan] * count, FAILED,
+                                                 f"{type(error).__name__}: {error}")
         return Result(number, status, margins, demands, inputs, clock.thread_time() - started, message)
 
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
@@ -210,7 +220,8 @@ class SceneSample:
             failures = self.limits.of(self.failures, values)
             quick = [one for one in failures if one.kind not in BESIDE]
             known = dict(zip((one.name for one in quick), self.soft.margins(values, quick)))
-            return [known[one.name] if one.name in known else self._beside(one, scene, None, values, None, None) for one in failures]
+            return [known[one.name] if one.name in known else self._beside(one, scene, None, values, None, None)
+                    for one in failures]
         if self.question == "static":
             return self._static(scene, values)
         end = scene.run.get("end", 0.0)
@@ -230,9 +241,11 @@ class SceneSample:
 
     def _looked(self, scene: Scene, sim: Any, values: dict[str, Any], end: float, look: float, more: Mapping[str, float]
                 ) -> list[tuple[float, float]]:
-        """Margins and demands of a sim from now to `end` [s]; more: of demands, the parts that the sim lacks, by kind."""
+        """Margins and demands of a sim from now to `end` [s]; more: of demands, the parts that the sim lacks, by
+        kind."""
         watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
-        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.outputs], int(end / look) + 4) \
+        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.outputs],
+                                int(end / look) + 4) \
             if self.own and scene.outputs else None
         self._run(scene, sim, end, look, watch, recorder)
         found = watch.margins(more)
@@ -261,7 +274,8 @@ class SceneSample:
             sim.run_noting(min(number * look, end))
             take()
 
-    def _beside(self, one: Failure, scene: Scene, sim: Any, values: dict[str, Any], watch: Any, recorder: Any) -> tuple[float, float]:
+    def _beside(self, one: Failure, scene: Scene, sim: Any, values: dict[str, Any], watch: Any,
+                recorder: Any) -> tuple[float, float]:
         """Margin and demand of a kind that needs more than signals."""
         if one.kind == "own":
             return self._own(one.name, one.limit, scene, sim, values, watch, recorder)
@@ -275,7 +289,8 @@ class SceneSample:
         numpy, given = need("numpy"), self.own[name]
         function = given.load() if isinstance(given, Own) else given
         table = numpy.array(recorder.table) if recorder is not None else numpy.zeros((len(watch.times), 1))
-        outputs = {output: table[:, 1 + i] for i, (output, _, _) in enumerate(scene.outputs)} if recorder is not None else {}
+        outputs = {output: table[:, 1 + i]
+                   for i, (output, _, _) in enumerate(scene.outputs)} if recorder is not None else {}
         try:
             found = float(function(OwnLook(scene, sim, values, numpy.array(watch.times), outputs)))
         except Exception as error:  # anything may be wrong with it; the sample is reported as failed

@@ -1,5 +1,5 @@
-"""Points of a study. A sample is its number: its uniform numbers come from a stream of Philox (counter-based) keyed by the seed
-of the study and the number, whoever draws it, whenever (Salmon et al. 2011)."""
+"""Points of a study. A sample is its number: its uniform numbers come from a stream of Philox (counter-based) keyed by
+the seed of the study and the number, whoever draws it, whenever (Salmon et al. 2011)."""
 from __future__ import annotations
 
 import functools
@@ -28,8 +28,8 @@ def drawn(seed: int, number: int, dimension: int) -> Any:
 
 
 class Points:
-    """z(number) of a method. The designs of latin-hypercube and sobol are `replicates` independent ones of equal size, one
-    after the other; the number of Sobol's points in one is raised to a power of 2."""
+    """z(number) of a method. The designs of latin-hypercube and sobol are `replicates` independent ones of equal size,
+    one after the other; the number of Sobol's points in one is raised to a power of 2."""
 
     def __init__(self, method: str, seed: int, dimension: int, samples: int, replicates: int = 10) -> None:
         self.method, self.seed, self.dimension = method, seed, dimension
@@ -39,7 +39,8 @@ class Points:
             self.each = 1 << (self.each - 1).bit_length()
         self.samples = self.each * self.replicates
         if method != "monte-carlo" and self.each * dimension > MOST_NUMBERS:
-            raise ValueError(f"a design of {self.each} points of {dimension} numbers, must be <= {MOST_NUMBERS} numbers; "
+            raise ValueError(f"a design of {self.each} points of {dimension} numbers, must be <= {MOST_NUMBERS} "
+                             "numbers; "
                              "use method = \"monte-carlo\" or more replicates")
         self.design = functools.lru_cache(maxsize=1)(self._design)
 

@@ -1,5 +1,6 @@
-"""Torque and drag of a sample as a soft string: pulled out, pushed in without rotation, and rotated while drilling, the last two with the load of
-the bit. The scene file is read and checked once: samples change the numbers of a description that the library has again each time."""
+"""Torque and drag of a sample as a soft string: pulled out, pushed in without rotation, and rotated while drilling, the
+last two with the load of the bit. The scene file is read and checked once: samples change the numbers of a description
+that the library has again each time."""
 from __future__ import annotations
 
 import copy
@@ -39,14 +40,15 @@ class NotFast(ValueError):
     """A scene of which each sample must be read again, and why."""
 
 
-# ---- Numbers of a description ------------------------------------------------------------------------------------------
+# ---- Numbers of a description ----------------------------------------------------------------------------------------
 def _leaves(value: Any, path: Path = ()) -> dict[Path, float]:
     """Every number by its path."""
     if isinstance(value, bool) or value is None or isinstance(value, (str, Id)):
         return {}
     if isinstance(value, (int, float)):
         return {path: float(value)}
-    items: Any = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, (list, tuple)) else ()
+    items: Any = (value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, (list, tuple))
+                  else ())
     return {key: one for name, inside in items for key, one in _leaves(inside, path + (name,)).items()}
 
 
@@ -62,8 +64,8 @@ def _differ(a: float, b: float) -> bool:
 
 
 class Places:
-    """Where the values of all that varies stand in the description of a scene, each as a factor of a number. Found by reading the scene with
-    one of them changed at a time, and verified with all of them changed."""
+    """Where the values of all that varies stand in the description of a scene, each as a factor of a number. Found by
+    reading the scene with one of them changed at a time, and verified with all of them changed."""
 
     def __init__(self, draw: Draw, read: Any) -> None:
         numpy = need("numpy")
@@ -127,7 +129,7 @@ def put(calls: Any, path: Path, value: float) -> None:
     calls[path[-1]] = value
 
 
-# ---- Describing it to the library --------------------------------------------------------------------------------------
+# ---- Describing it to the library ------------------------------------------------------------------------------------
 class Described:
     """The parts of a scene that a soft string has, as structs of the library that a sample changes in place."""
 
@@ -156,7 +158,8 @@ class Described:
         if name == "add_pipes":
             kept.update(yield_strength=STRENGTH, elements=1)
         found = _DEFINITIONS[name](**kept)
-        self.ids += [(found, key, value.index) for key, value in fields.items() if isinstance(value, Id) and key == "string"]
+        self.ids += [(found, key, value.index) for key, value in fields.items() if isinstance(value, Id)
+                     and key == "string"]
         return found
 
     def put(self, path: Path, value: float) -> None:
@@ -192,8 +195,8 @@ def _check(status: int, handle: c_void_p) -> None:
 
 
 def _fewer(count: int, fields: dict[str, Any], moving: frozenset[Any]) -> tuple[int, dict[str, Any]]:
-    """The same pipes in longer pieces with as much of tool joints: weight, stiffness and diameters per length, which is all that a soft string
-    has of them, stay the same."""
+    """The same pipes in longer pieces with as much of tool joints: weight, stiffness and diameters per length, which is
+    all that a soft string has of them, stay the same."""
     length, joint = fields.get("length", 1.0), fields.get("joint_length", 0.0)
     pieces = max(1, math.ceil(count * length / PIECE))
     if pieces >= count or {"joint_mass", "joint_inertia"} & fields.keys() or {"length", "joint_length"} & moving:
@@ -218,7 +221,8 @@ class Rows:
         sim, operations = c_void_p(), self._operations(plan)
         _check(_lib.dmb_sim_create(model, byref(self.sim_options), byref(sim)), model)
         try:
-            status = _lib.dmb_analysis_torque_drag(sim, byref(self.options), operations, c_uint32(len(STATES)), self.rows)
+            status = _lib.dmb_analysis_torque_drag(sim, byref(self.options), operations, c_uint32(len(STATES)),
+                                                   self.rows)
             if status < 0:
                 raise Error(status, _lib.dmb_sim_message(sim).decode())
             force = max(self._force(sim, one) for one in operations) if self.wall else 0.0
@@ -230,12 +234,14 @@ class Rows:
         wanted = (plan.rotation, plan.feed, plan.weight_on_bit, plan.torque_on_bit)
         if wanted != self.known:
             usual = operations_of(plan)
-            self.known, self.operations = wanted, (Operation * len(STATES))(*[usual[int(kind)] for kind in STATES.values()])
+            self.known, self.operations = (wanted, (Operation * len(STATES))(*[usual[int(kind)]
+                                                                               for kind in STATES.values()]))
         return self.operations
 
     def _force(self, sim: c_void_p, operation: Operation) -> float:
         """[N/m] Infinite where the string locks up."""
-        status = _lib.dmb_analysis_torque_drag_profile(sim, byref(self.options), byref(operation), c_uint32(STATIONS), None, None, None, self.forces)
+        status = _lib.dmb_analysis_torque_drag_profile(sim, byref(self.options), byref(operation), c_uint32(STATIONS),
+                                                       None, None, None, self.forces)
         if status == Status.ERR_NO_CONVERGENCE:
             return math.inf
         if status < 0:
@@ -244,7 +250,7 @@ class Rows:
         return float(max(self.forces))
 
 
-# ---- Samples -----------------------------------------------------------------------------------------------------------
+# ---- Samples ---------------------------------------------------------------------------------------------------------
 class SoftString:
     """Margins and demands of samples by torque and drag."""
 
@@ -256,7 +262,8 @@ class SoftString:
         try:
             self.places: Places | None = Places(draw, lambda values: self._calls(self._scene(values)))
             self.described = Described(self.places.calls, frozenset(path[-1] for path, *_ in self.places.found))
-            self.moving = {path[0] for path, *_ in self.places.found if self.places.calls[path[0]][0] in ("add_time_function", "add_bit", "add_drive")}
+            self.moving = {path[0] for path, *_ in self.places.found
+                           if self.places.calls[path[0]][0] in ("add_time_function", "add_bit", "add_drive")}
             self.plan = self._plan(self.places.calls)
             self._refuse_lost()
             self._compare(self.places.last)
@@ -268,7 +275,8 @@ class SoftString:
 
     @staticmethod
     def _calls(scene: Scene) -> Any:
-        return [[name, _lists(copy.deepcopy(arguments) if name == "add_time_function" else arguments)] for name, arguments in scene.model.calls]
+        return [[name, _lists(copy.deepcopy(arguments) if name == "add_time_function" else arguments)]
+                for name, arguments in scene.model.calls]
 
     @staticmethod
     def _plan(calls: Any) -> Operating:
@@ -285,7 +293,8 @@ class SoftString:
     def _compare(self, values: dict[str, Any]) -> None:
         """The short way against the long one, of one sample."""
         try:
-            mine, wanted = ([soft_margin(one, found)[1] for one in self.failures] for found in (self._fast(values), self._slow(values)))
+            mine, wanted = ([soft_margin(one, found)[1] for one in self.failures]
+                            for found in (self._fast(values), self._slow(values)))
         except (Error, ArithmeticError, ValueError):
             return  # a sample without an answer has none either way
         if any(a != b and not abs(a - b) <= 1e-9 * max(abs(a), abs(b)) for a, b in zip(mine, wanted)):
@@ -311,7 +320,8 @@ class SoftString:
         try:
             return self._of(Described(calls, frozenset({"length"})), self._plan(calls))
         except NotFast:  # parts that only a whole model has
-            calls = [(name, (args[0], {**args[1], "yield_strength": STRENGTH}) if name == "add_pipes" else args) for name, args in scene.model.calls]
+            calls = [(name, (args[0], {**args[1], "yield_strength": STRENGTH}) if name == "add_pipes" else args)
+                     for name, args in scene.model.calls]
             from ..model import Model, remake
             model = remake(Model, calls)
             return self.rows.of(model._handle, operating(scene))
@@ -328,9 +338,11 @@ class SoftString:
         """Loads that the result neglects, and the reason for long computing times."""
         found = []
         if self.why:
-            found.append(f"torque and drag: each sample reads the scene again, which takes about ten times as long, because {self.why}")
+            found.append("torque and drag: each sample reads the scene again, which takes about ten times as long, "
+                         f"because {self.why}")
         if has_rock_law(self.draw.scene):
-            found.append("torque and drag: the load and torque of the bit are left out, because a rock law gives them in a run only; ask --question run")
+            found.append("torque and drag: the load and torque of the bit are left out, because a rock law gives them "
+                         "in a run only; ask --question run")
         elif not self._plan(self.draw.scene.model.calls).weight_on_bit:
             found.append("torque and drag: without load and torque of the bit, because the scene gives the bit no load")
         return found

@@ -1,4 +1,5 @@
-"""Static states of a sample: the stiff string pushed in, pulled out and rotated, with the largest load of the bit, as friction is then."""
+"""Static states of a sample: the stiff string pushed in, pulled out and rotated, with the largest load of the bit, as
+friction is then."""
 from __future__ import annotations
 
 import contextlib
@@ -16,7 +17,8 @@ from ..scene import Scene
 from ..scene.largest import largest_of
 from ..sim import Sim
 
-USUAL_SPEED, USUAL_ROTATION = 0.01, 10.0  #: [m/s, rad/s] where the scene gives none; friction depends on their direction
+#: [m/s, rad/s] where the scene gives none; friction depends on their direction
+USUAL_SPEED, USUAL_ROTATION = 0.01, 10.0
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,8 @@ class State:
 
 def _loaded(scene: Scene) -> Scene:
     """The scene with the time functions of bit loads at their largest from the beginning."""
-    numbers = {number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")}
+    numbers = {number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit"
+               and arguments[0].get("load")}
     calls, number, changed, time_functions = [], -1, False, time_functions_of(scene)
     for name, arguments in scene.model.calls:
         number += name == "add_time_function"
@@ -43,7 +46,8 @@ def _loaded(scene: Scene) -> Scene:
         return scene
     model = remake(type(scene.model), calls)
     return replace(scene, model=model, names={key: model.own(part) for key, part in scene.names.items()},
-                   failures=[replace(one, parts={key: model.own(part) for key, part in one.parts.items()}) for one in scene.failures],
+                   failures=[replace(one, parts={key: model.own(part) for key, part in one.parts.items()})
+                             for one in scene.failures],
                    outputs=[(name, model.own(place), quantity) for name, place, quantity in scene.outputs])
 
 
@@ -53,9 +57,11 @@ def states(scene: Scene) -> list[State]:
     speed = abs(given.get("slip_axial", 0.0)) or plan.feed or USUAL_SPEED
     rotation = abs(given.get("slip_rotation", 0.0)) or plan.rotation or USUAL_ROTATION
     loaded = _loaded(scene)
-    found = [State("pushed in", loaded, {"slip_axial": speed}, {}), State("pulled out", scene, {"slip_axial": -speed}, {})]
+    found = [State("pushed in", loaded, {"slip_axial": speed}, {}), State("pulled out", scene, {"slip_axial": -speed},
+                                                                          {})]
     if any(name == "add_drive" and arguments[0].get("component") == enums.RX for name, arguments in scene.model.calls):
-        stress = math.sqrt(3.0) * plan.torque_on_bit / min(polar_moduli(scene), default=math.inf)  # von Mises of sums <= sum
+        # von Mises of sums <= sum
+        stress = math.sqrt(3.0) * plan.torque_on_bit / min(polar_moduli(scene), default=math.inf)
         found.append(State("rotated", loaded, {"slip_rotation": rotation}, {
             "rig-torque": plan.torque_on_bit, "connection-torque": plan.torque_on_bit, "stress": stress}))
     return found
@@ -63,7 +69,8 @@ def states(scene: Scene) -> list[State]:
 
 @contextlib.contextmanager
 def at_rest(state: State) -> Iterator[Sim]:
-    """A sim in that state; in ten load steps where one does not converge, as with friction around a string, which climbs."""
+    """A sim in that state; in ten load steps where one does not converge, as with friction around a string, which
+    climbs."""
     values: dict[str, Any] = {**state.scene.fields_of("static"), "slip_axial": 0.0, "slip_rotation": 0.0, **state.slip}
     with state.scene.new_sim() as sim:
         try:

@@ -1,7 +1,9 @@
-"""A study: samples by their numbers, evaluated by an engine, kept in one HDF5 file that can be read while it grows (SWMR).
+"""A study: samples by their numbers, evaluated by an engine, kept in one HDF5 file that can be read while it grows
+(SWMR).
 
-The file has one table, "samples", a row for each sample in the order in which they came in, and attributes that identify the study
-in it. A run that was killed continues from the rows that are there. A file of another scene, code or seed is refused."""
+The file has one table, "samples", a row for each sample in the order in which they came in, and attributes that
+identify the study in it. A run that was killed continues from the rows that are there. A file of another scene, code or
+seed is refused."""
 from __future__ import annotations
 
 import contextlib
@@ -26,7 +28,8 @@ from typing import Any, Protocol
 from .. import __version__
 from .._library import lib
 from .._optional import need
-from .rows import Damaged, StudyError, content_of, end_of, head_of, mark_of, packed, read_rows, recovered, result, row_type
+from .rows import (Damaged, StudyError, content_of, end_of, head_of, mark_of, packed, read_rows, recovered, result,
+                   row_type)
 from .sample import FAILED, Result
 
 
@@ -97,7 +100,7 @@ def differences(old: dict[str, str], new: dict[str, str]) -> list[str]:
     return found
 
 
-# ---- The file ----------------------------------------------------------------------------------------------------------
+# ---- The file --------------------------------------------------------------------------------------------------------
 CHUNK = 256  #: rows that HDF5 keeps together
 SPARE, INDEX = 1 << 16, 1 << 8  #: bytes that a study file may need beside its rows, in all and for each chunk
 _GUARD = threading.Lock()
@@ -105,11 +108,14 @@ _OPEN: set[tuple[int, int]] = set()  # lock files that this process holds, by de
 
 
 class Lock:
-    """The right to write a study file, or those of a map, a POSIX lock on a file beside it. Such a lock is lost with any close of that file by its process, so
-    a process that holds it never opens the file again. Workers that outlive their parent do not hold it."""
+    """The right to write a study file, or those of a map, a POSIX lock on a file beside it. Such a lock is lost with
+    any close of that file by its process, so a process that holds it never opens the file again. Workers that outlive
+    their parent do not hold it."""
 
     def __init__(self, path: pathlib.Path, other: str = "file") -> None:
-        place, busy = path.with_name(path.name + ".lock"), StudyError(f"{path}: another run writes it now; wait for it, or give another {other}")
+        place, busy = path.with_name(path.name
+                                     + ".lock"), StudyError(f"{path}: another run writes it now; wait for it, or give "
+                                                            f"another {other}")
         with _GUARD:
             if place.exists() and _place_of(place) in _OPEN:
                 raise busy
@@ -147,16 +153,17 @@ def _image(rows: Any, attributes: dict[str, str]) -> bytes:
 
 
 class StudyFile:
-    """The file; one writer at a time, held by a lock beside it. Rows that a killed writer left are copied to a new file, which then
-    takes the old one's place, so that nothing that is there is ever written over. A damaged file is refused (Damaged); with `salvage` its
-    sound rows are taken and it is kept beside as NAME.damaged."""
+    """The file; one writer at a time, held by a lock beside it. Rows that a killed writer left are copied to a new
+    file, which then takes the old one's place, so that nothing that is there is ever written over. A damaged file is
+    refused (Damaged); with `salvage` its sound rows are taken and it is kept beside as NAME.damaged."""
 
     def __init__(self, path: Any, sample: Sample, settings: dict[str, Any], salvage: bool = False) -> None:
         self.path = pathlib.Path(path)
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.names, self.inputs = list(sample.names), list(sample.inputs)
         self._known = identity(sample, settings)
-        self._attributes = {"study": json.dumps(self._known), "names": json.dumps(self.names), "inputs": json.dumps(self.inputs)}
+        self._attributes = {"study": json.dumps(self._known), "names": json.dumps(self.names),
+                            "inputs": json.dumps(self.inputs)}
         self._mark, self._kind = mark_of(self._attributes), row_type(len(self.names), len(self.inputs))
         self._waiting: list[Result] = []
         self._lock = Lock(self.path)
@@ -168,7 +175,8 @@ class StudyFile:
 
     def _open(self, salvage: bool) -> None:
         old, kept = self._old(salvage), self._kept_files()
-        self.results = {int(row["number"]): result(row) for rows in [old, *(recovered(one, self._attributes) for one in kept)] for row in rows}
+        self.results = {int(row["number"]): result(row)
+                        for rows in [old, *(recovered(one, self._attributes) for one in kept)] for row in rows}
         new = self.path.with_name(self.path.name + ".new")
         _write(new, self._whole())
         os.replace(new, self.path)
@@ -212,7 +220,8 @@ class StudyFile:
             raise
         different = differences(json.loads(found.attributes["study"]), self._known)
         if different:
-            raise StudyError(f"{self.path}: belongs to a different study; choose another --output folder or move the file. Differences:\n  "
+            raise StudyError(f"{self.path}: belongs to a different study; choose another --output folder or move the "
+                             "file. Differences:\n  "
                              + "\n  ".join(different))
         if found.damage:
             raise Damaged(self.path, found.damage, found.rows)
@@ -241,19 +250,21 @@ class StudyFile:
         self._waiting.clear()
 
     def _reserve(self, rows: int) -> None:
-        """Makes the file longer than HDF5 needs it for so many rows. Raises OSError if the disk has no room: HDF5 itself ends the process
-        then."""
+        """Makes the file longer than HDF5 needs it for so many rows. Raises OSError if the disk has no room: HDF5
+        itself ends the process then."""
         end = self._begin + SPARE + (rows // CHUNK + 2) * (CHUNK * self._kind.itemsize + INDEX)
         if end <= self._reserved or not hasattr(os, "posix_fallocate"):
             return
         try:
             os.posix_fallocate(self._end, self._reserved, end - self._reserved)
         except OSError as error:
-            raise OSError(error.errno, f"{os.strerror(error.errno or errno.EIO)}; the rows so far are in the file", str(self.path)) from error
+            raise OSError(error.errno, f"{os.strerror(error.errno or errno.EIO)}; the rows so far are in the file",
+                          str(self.path)) from error
         self._reserved = end
 
     def _still_there(self) -> None:
-        """Raises StudyError if another file has taken the place of this one; all rows are put aside then, for the next run."""
+        """Raises StudyError if another file has taken the place of this one; all rows are put aside then, for the next
+        run."""
         try:
             if _place_of(self.path) == self._place:
                 return
@@ -262,8 +273,10 @@ class StudyFile:
         aside = self.path.with_name(f"{self.path.name}.kept-{os.getpid()}")
         _write(aside, self._whole())
         self._waiting.clear()
-        raise StudyError(f"{self.path}: was moved or replaced while this run wrote it, as by another run on a file system without locks; "
-                         f"its {len(self.results)} finished rows are in {aside.name}, which the same command takes in when it is called again")
+        raise StudyError(f"{self.path}: was moved or replaced while this run wrote it, as by another run on a file "
+                         "system without locks; "
+                         f"its {len(self.results)} finished rows are in {aside.name}, which the same command takes in "
+                         "when it is called again")
 
     def close(self) -> None:
         """Writes the remaining rows and closes the file."""
@@ -382,8 +395,8 @@ class Study:
         self.file.flush()
 
     def evaluate(self, limit: int = 0, scales: Sequence[float] | None = None) -> Callable[[Sequence[int], Any], Any]:
-        """The margins of limit state `limit`; or the smallest of all over their scales, a failure of anything, where scales are
-        given. NaN of a sample that failed."""
+        """The margins of limit state `limit`; or the smallest of all over their scales, a failure of anything, where
+        scales are given. NaN of a sample that failed."""
         numpy = need("numpy")
 
         def ask(numbers: Sequence[int], z: Any) -> Any:
@@ -398,4 +411,5 @@ def usable(margins: Sequence[float]) -> bool:
     return not any(math.isnan(one) for one in margins)
 
 
-__all__ = ["Damaged", "Progress", "Sample", "Study", "StudyError", "StudyFile", "code", "differences", "identity", "read_rows", "usable"]
+__all__ = ["Damaged", "Progress", "Sample", "Study", "StudyError", "StudyFile", "code", "differences", "identity",
+           "read_rows", "usable"]

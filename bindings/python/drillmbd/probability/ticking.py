@@ -10,7 +10,8 @@ LEAST = 2.0  #: [s] predicted, below which nothing is shown
 _CLOCK = """import os, sys, time
 parent, started = os.getppid(), time.monotonic()
 while os.getppid() == parent:
-    print(f"\\r{sys.argv[1]}: {time.monotonic() - started:.0f} s of about {float(sys.argv[2]):.2g} s ", end="", file=sys.stderr, flush=True)
+    print(f"\\r{sys.argv[1]}: {time.monotonic() - started:.0f} s of about {float(sys.argv[2]):.2g} s ",
+          end="", file=sys.stderr, flush=True)
     time.sleep(1.0)
 """
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from ..errors import Usage
 from .estimates import Estimate
 
-FIRST, GROWTH, MOST = 100, 2.0, 100_000  #: samples of the first look, factor of the next, most where --samples does not say
+#: samples of the first look, factor of the next, most where --samples does not say
+FIRST, GROWTH, MOST = 100, 2.0, 100_000
 
 
 @dataclass(frozen=True)
@@ -26,13 +27,15 @@ class Rule:
     def verdict(self, one: Estimate) -> str:
         """The state of the estimate in words."""
         if self.bound and one.lost < one.samples:
-            word = "is below" if one.high < self.bound else "is above" if one.low > self.bound else "cannot be distinguished from"
+            word = ("is below" if one.high < self.bound else "is above" if one.low > self.bound
+                    else "cannot be distinguished from")
             return f"the probability {word} {self.bound:g}"
         if one.lost == one.samples:
             return "not assessed, because no sample has a margin"
         if not one.probability > 0.0:
             return "no sample with a margin failed, so that the interval has no relative width"
-        return f"half of the interval is {50.0 * (one.high - one.low) / one.probability:.3g} % of the probability, requested {100 * self.share:g} %"
+        return (f"half of the interval is {50.0 * (one.high - one.low) / one.probability:.3g} % of the probability, "
+                f"requested {100 * self.share:g} %")
 
 
 def rule(text: str) -> Rule:
@@ -46,7 +49,8 @@ def rule(text: str) -> Rule:
             return Rule(bound=float(bound[1]))
     except ValueError:
         pass
-    raise Usage(f'--until {text!r}: write a share of the probability within 0.1 % .. 100 %, as "30%", or a bound within 1e-9 .. 1, as "below 1e-2"')
+    raise Usage(f'--until {text!r}: write a share of the probability within 0.1 % .. 100 %, as "30%", or a bound '
+                'within 1e-9 .. 1, as "below 1e-2"')
 
 
 def looks(most: int) -> int:
@@ -58,9 +62,9 @@ def looks(most: int) -> int:
 
 
 def spent(confidence: float, most: int) -> float:
-    """Confidence of the interval of one look, with which the intervals of all looks hold together with the given one (Bonferroni). Without it a study
-    that stops as soon as its interval leaves a bound does so wrongly in more than 20 of 100 cases instead of 5 (probability at the bound, nine looks:
-    test_questions, test_verdicts_hold)."""
+    """Confidence of the interval of one look, with which the intervals of all looks hold together with the given one
+    (Bonferroni). Without it a study that stops as soon as its interval leaves a bound does so wrongly in more than 20
+    of 100 cases instead of 5 (probability at the bound, nine looks: test_questions, test_verdicts_hold)."""
     return 1.0 - (1.0 - confidence) / looks(most)
 
 

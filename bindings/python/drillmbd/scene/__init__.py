@@ -1,5 +1,5 @@
-"""Scene files: a drill string in its hole, its rig and the settings of commands, in TOML with units. Frames, angles and signs:
-examples/conventions/README.md.
+"""Scene files: a drill string in its hole, its rig and the settings of commands, in TOML with units. Frames, angles and
+signs: examples/conventions/README.md.
 
     from drillmbd import scene
     rig = scene.load("rig.toml")          # SceneError lists all faults, with lines

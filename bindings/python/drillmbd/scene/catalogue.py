@@ -1,5 +1,6 @@
-"""Drill pipe, rods, collars and rigs by name: `pipe = "5 in 19.50 S135"` in [[string.pipes]], `rig = "..."` in [limits]. The names stand in
-catalogue.toml, with sources, and in a file of the user's own that `catalogue = "own.toml"` names. Keys of the scene file come first."""
+"""Drill pipe, rods, collars and rigs by name: `pipe = "5 in 19.50 S135"` in [[string.pipes]], `rig = "..."` in
+[limits]. The names stand in catalogue.toml, with sources, and in a file of the user's own that `catalogue = "own.toml"`
+names. Keys of the scene file come first."""
 from __future__ import annotations
 
 import difflib
@@ -46,19 +47,22 @@ class Found:
     values: dict[str, Any]
     about: str
     source: str = ""
-    lacks: dict[str, str] = field(default_factory=dict)  #: keys that the name does not give: the consequence if the file does not give them either
+    #: keys that the name does not give: the consequence if the file does not give them either
+    lacks: dict[str, str] = field(default_factory=dict)
 
     def text(self, given: Iterable[str] = ()) -> str:
         """The sentence for a scene file that gives these keys itself."""
         own = [key for key in self.values if key in given]
         parts = [self.about, *(text for key, text in self.lacks.items() if key not in given),
-                 *([f"the scene file's own {', '.join(own)} holds instead"] if own else []), *([f"source: {self.source}"] if self.source else [])]
+                 *([f"the scene file's own {', '.join(own)} holds instead"] if own else []),
+                 *([f"source: {self.source}"] if self.source else [])]
         return "; ".join(parts)
 
 
 def _known(kind: str) -> dict[str, str]:
     """Units of the numbers of an entry."""
-    pipes = {key: one.unit for key, one in fields_of(DEFINITIONS["pipes"]).items() if one.kind == "quantity" and not one.count}
+    pipes = {key: one.unit for key, one in fields_of(DEFINITIONS["pipes"]).items() if one.kind == "quantity"
+             and not one.count}
     own = {"pipe": pipes, "collar": pipes, "grade": {"yield_strength": "Pa"}, "class": {"remaining_wall": "-"},
            "rig": {key: LIMITS[key].unit for key in ("torque", "push", "pull")}}
     return {**own[kind], **ABOUT}
@@ -67,7 +71,8 @@ def _known(kind: str) -> dict[str, str]:
 # ---- Names -----------------------------------------------------------------------------------------------------------
 _NUMBER = r"\d+(?:[.,]\d+)?"
 _WORDS = re.compile(rf"(\d+)[\s-]+(\d+)/(\d+)|(\d+)/(\d+)|({_NUMBER})|([^\W\d_]+)")
-_BESIDE = {"in", "inch", "inches", "lb", "lbs", "ft", "ppf", "drill", "pipe", "rod", "rods"}  # words without a meaning in these names
+# words without a meaning in these names
+_BESIDE = {"in", "inch", "inches", "lb", "lbs", "ft", "ppf", "drill", "pipe", "rod", "rods"}
 
 
 @functools.lru_cache(maxsize=2000)
@@ -162,11 +167,13 @@ class Catalogue:
         """Torque, push and pull of a rig. Raises CatalogueError."""
         entry = self.entries.get(("rig", key_of(name)))
         if entry is None:
-            reason = next((f"; {text}" for begins, text in self.missing if name.strip().casefold().startswith(begins.casefold())), None)
+            reason = next((f"; {text}" for begins, text in self.missing
+                           if name.strip().casefold().startswith(begins.casefold())), None)
             raise CatalogueError(f"is in no catalogue{reason or self._near(key_of(name), self.of('rig'))}")
         values = {key: value for key, value in entry.values.items() if key in LIMITS}
         lacks = {key: f"{key} is not known" for key in ("torque", "push", "pull") if key not in values}
-        return Found(values, "is taken as " + ", ".join(f"{key} {value}" for key, value in values.items()), entry.source, lacks)
+        return Found(values, "is taken as " + ", ".join(f"{key} {value}" for key, value in values.items()),
+                     entry.source, lacks)
 
     # ---- Pipes -------------------------------------------------------------------------------------------------------
     def pipe(self, name: str) -> Found:
@@ -204,10 +211,13 @@ class Catalogue:
         return _metres(inner + units.parse(wear.values["remaining_wall"], "-") * (outer - inner))
 
     def _by_dimensions(self, name: str) -> tuple[dict[str, Any], str]:
-        """Of outer diameter x wall thickness, with a grade of the catalogue, a yield strength as "780 MPa", or another name of a grade."""
+        """Of outer diameter x wall thickness, with a grade of the catalogue, a yield strength as "780 MPa", or another
+        name of a grade."""
         match = re.fullmatch(  # size, wall thickness, unit, grade
-            rf"(.*?{_NUMBER}\s*(?:[^\W\d]*|\"))\s*[x×*]\s*({_NUMBER})\s*(mm|cm|in|inch|\")?(?:\s+(.*))?", plain(name).strip(), re.I)
-        unit = match and (re.search(r"(mm|cm|inch|in|m|\")?\s*$", match[1], re.I)[1] or match[3] or  # type: ignore[index]
+            rf"(.*?{_NUMBER}\s*(?:[^\W\d]*|\"))\s*[x×*]\s*({_NUMBER})\s*(mm|cm|in|inch|\")?(?:\s+(.*))?",
+            plain(name).strip(), re.I)
+        unit = match and (re.search(r"(mm|cm|inch|in|m|\")?\s*$", match[1], re.I)[1] or match[3]
+                          or  # type: ignore[index]
                           ("mm" if re.match(r"\s*(phi|dia|[φΦϕøØ⌀∅]|直径)", match[1], re.I) else None))
         if match is None or not unit:
             raise CatalogueError(self._unknown(key_of(name)))
@@ -217,9 +227,11 @@ class Catalogue:
         except units.UnitError as error:
             raise CatalogueError(f"{size}: {error}") from error
         if not 0.0 < 3.0 * wall < outer:
-            raise CatalogueError(f"has a wall of {1e3 * wall:g} mm, which must be below a third of the outer diameter, {1e3 * outer:g} mm; "
+            raise CatalogueError(f"has a wall of {1e3 * wall:g} mm, which must be below a third of the outer diameter, "
+                                 f"{1e3 * outer:g} mm; "
                                  "the second number is the wall thickness")
-        return self._graded({"outer_diameter": _metres(outer), "inner_diameter": _metres(outer - 2.0 * wall)}, match[4] or "")
+        return self._graded({"outer_diameter": _metres(outer), "inner_diameter": _metres(outer - 2.0 * wall)},
+                            match[4] or "")
 
     def _unknown(self, key: Key) -> str:
         """A name of a known size with an unknown grade, or none of the names."""
@@ -227,8 +239,10 @@ class Catalogue:
         for one in self.of("pipe", "collar"):
             size = key_of(one.name)
             if len(size) < len(key) and key[:len(size)] == size:
-                grade = "".join(f"{part:g}" if isinstance(part, float) else str(part).upper() for part in key[len(size):])
-                return f"is {one.name} of {grade}, which is no grade of a catalogue{meant(grade, [grade.name for grade in self.of('grade')])}"
+                grade = "".join(f"{part:g}" if isinstance(part, float) else str(part).upper()
+                                for part in key[len(size):])
+                return (f"is {one.name} of {grade}, which is no grade of a "
+                        f"catalogue{meant(grade, [grade.name for grade in self.of('grade')])}")
         return ("is in no catalogue" + self._near(self._suffix(key, "grade")[0], self.of("pipe", "collar"))
                 + '; other sizes are written with outer diameter and wall thickness, as "phi 73 x 6.5"')
 
@@ -239,12 +253,16 @@ class Catalogue:
             return values, ""
         if grade is None:
             try:
-                return {**values, "yield_strength": f"{units.parse(re.sub('^yield', '', words, flags=re.I).strip(), 'Pa')!r} Pa"}, ""
+                return {**values,
+                        "yield_strength":
+                            f"{units.parse(re.sub('^yield', '', words, flags=re.I).strip(), 'Pa')!r} Pa"}, ""
             except units.UnitError:
                 pass
         if len(rest) > 3 or isinstance(rest[1], float) or rest[1] == "x":
-            raise CatalogueError(f"has '{words}' after the wall thickness, which must be a grade or a yield strength, as 780 MPa")
-        return values, (f"the yield strength of grade {words} is in no catalogue (the number of a grade may be its tensile strength): "
+            raise CatalogueError(f"has '{words}' after the wall thickness, which must be a grade or a yield strength, "
+                                 "as 780 MPa")
+        return values, (f"the yield strength of grade {words} is in no catalogue (the number of a grade may be its "
+                        "tensile strength): "
                         "give yield_strength of its certificate")
 
     def _near(self, key: Key, entries: list[Entry]) -> str:
@@ -271,7 +289,8 @@ def _described(values: dict[str, Any]) -> str:
 
 
 def _lacks(values: dict[str, Any], unknown: str) -> dict[str, str]:
-    found = {"yield_strength": unknown or "no grade is named: the yield strength is not known", "joint_length": "without tool joints"}
+    found = {"yield_strength": unknown or "no grade is named: the yield strength is not known",
+             "joint_length": "without tool joints"}
     return {key: text for key, text in found.items() if key not in values}
 
 
@@ -281,14 +300,16 @@ def _tables(holder: Any, path: Path, key: str) -> list[tuple[Path, dict[str, Any
     value = holder.get(key) if isinstance(holder, dict) else None
     if isinstance(value, dict):
         return [(path + (key,), value)]
-    return [(path + (key, number), one) for number, one in enumerate(value if isinstance(value, list) else []) if isinstance(one, dict)]
+    return [(path + (key, number), one) for number, one in enumerate(value if isinstance(value, list) else [])
+            if isinstance(one, dict)]
 
 
 def expand(content: dict[str, Any], problems: Problems, folder: Any) -> None:
     """Puts the values that names of a catalogue represent in their place, below the keys that are given."""
     places = [place for path, string in _tables(content, (), "string") for place in _tables(string, path, "pipes")]
     for path, sub in _tables(content, (), "sub"):
-        places += [place for where, section in _tables(sub, path, "section") for place in _tables(section, where, "pipes")]
+        places += [place for where, section in _tables(sub, path, "section")
+                   for place in _tables(section, where, "pipes")]
     named = [("pipe", path, table) for path, table in places if "pipe" in table]
     named += [("rig", path, table) for path, table in _tables(content, (), "limits") if "rig" in table]
     files = content.pop("catalogue", [])
@@ -325,7 +346,8 @@ def _fill(catalogue: Catalogue, kind: str, path: Path, table: dict[str, Any], pr
 
 
 # ---- The list --------------------------------------------------------------------------------------------------------
-HEADS = {"pipe": 'drill pipe and rods, pipe = "NAME GRADE CLASS" in [[string.pipes]]; other sizes: "phi 73 x 6.5" or "phi 73 x 6.5 780 MPa"',
+HEADS = {"pipe": 'drill pipe and rods, pipe = "NAME GRADE CLASS" in [[string.pipes]]; other sizes: "phi 73 x 6.5" or '
+                 '"phi 73 x 6.5 780 MPa"',
          "collar": 'drill collars, pipe = "NAME" in [[string.pipes]]', "grade": "grades", "class": "classes of wear",
          "rig": 'rigs, rig = "NAME" in [limits]'}
 
@@ -333,15 +355,20 @@ HEADS = {"pipe": 'drill pipe and rods, pipe = "NAME GRADE CLASS" in [[string.pip
 def text(word: str | None, files: Iterable[str] = ()) -> str:
     """The entries whose names or sources have a word, with values, units and source. Raises CatalogueError."""
     catalogue = Catalogue(pathlib.Path(one) for one in files)
-    chosen = [one for one in catalogue.of(*KINDS) if not word or word.casefold() in f"{one.kind} {one.name} {one.source}".casefold()
+    chosen = [one for one in catalogue.of(*KINDS) if not word
+              or word.casefold() in f"{one.kind} {one.name} {one.source}".casefold()
               or key_of(word) == key_of(one.name)[:len(key_of(word))] != ()]
     if word and not chosen:
-        reason = next((f"; {about}" for begins, about in catalogue.missing if word.casefold().startswith(begins.casefold())), None)
-        raise CatalogueError(f"{word}: is in no catalogue{reason or catalogue._near(key_of(word), catalogue.of(*KINDS))}")
+        reason = next((f"; {about}" for begins, about in catalogue.missing
+                       if word.casefold().startswith(begins.casefold())), None)
+        raise CatalogueError(f"{word}: is in no catalogue"
+                             f"{reason or catalogue._near(key_of(word), catalogue.of(*KINDS))}")
     numbers = {source: number for number, source in enumerate(dict.fromkeys(one.source for one in chosen), 1)}
     lines = []
     for kind in KINDS:
         rows = [one for one in chosen if one.kind == kind]
-        lines += [HEADS[kind], *(f"  {one.name:24} {', '.join(f'{key} {value}' for key, value in one.values.items())}  [{numbers[one.source]}]"
-                                 for one in rows), ""] if rows else []
+        lines += [HEADS[kind],
+                  *(f"  {one.name:24} {', '.join(f'{key} {value}' for key, value in one.values.items())}  "
+                    f"[{numbers[one.source]}]"
+                    for one in rows), ""] if rows else []
     return "\n".join([*lines, "sources", *(f"  [{number}] {source}" for source, number in numbers.items())]) + "\n"

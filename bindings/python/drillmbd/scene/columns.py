@@ -1,5 +1,5 @@
-"""Columns of numbers out of a table as it comes: found by their heads, with units out of heads, of a line of units or of
-the scene file. Messages name line, column, the value as written and the likely cause."""
+"""Columns of numbers out of a table as it comes: found by their heads, with units out of heads, of a line of units or
+of the scene file. Messages name line, column, the value as written and the likely cause."""
 from __future__ import annotations
 
 import re
@@ -101,7 +101,8 @@ def _passed_over(row: Row, places: list[_Place]) -> list[str]:
         chosen = next((one for one in places if one.column.unit and one.index != index and (
             _is(name, one.column) or name.split(" ")[0] in one.column.names)), None)
         if name and chosen is not None and all(index != one.index for one in places):
-            found.append(f"column {index + 1} ({head[:40]}) is not read: the {chosen.column.key} is column {chosen.index + 1} ({chosen.head[:40]})")
+            found.append(f"column {index + 1} ({head[:40]}) is not read: the {chosen.column.key} is column "
+                         f"{chosen.index + 1} ({chosen.head[:40]})")
     return found
 
 
@@ -113,7 +114,8 @@ def _is_number(cell: str) -> bool:
         return bool(re.match(r"[-+]?\d", cell))
 
 
-def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row], Row | None]:
+def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row],
+                                                                                        Row | None]:
     """Columns, the rows below their heads, and the heads of the file."""
     if given is not None:
         return _places(Row(0, given), columns), _from_numbers(table.rows), None
@@ -140,7 +142,8 @@ def _take_units(places: list[_Place], rows: list[Row]) -> list[Row]:
         return rows
     cells = [re.sub(r"^[\[({]|[\])}]$", "", one.strip()).strip() for one in rows[0].cells]
     own = [(one, cells[one.index] if one.index < len(cells) else "") for one in places if one.column.unit]
-    if any(_is_number(text) for _, text in own) or not any(text and units.fits(text, one.column.unit) for one, text in own):
+    if (any(_is_number(text) for _, text in own) or not any(text and units.fits(text, one.column.unit)
+                                                            for one, text in own)):
         return rows
     for one, text in own:
         if text and units.fits(text, one.column.unit):
@@ -149,16 +152,17 @@ def _take_units(places: list[_Place], rows: list[Row]) -> list[Row]:
 
 
 #: Advice for a survey without the heads that are needed, and the key of the scene file that gives them.
-SURVEY_ADVICE = ("give the heads in the file, as \"depth [m], inclination [deg], azimuth [deg]\", or in the scene file, as survey_columns = "
+SURVEY_ADVICE = ("give the heads in the file, as \"depth [m], inclination [deg], azimuth [deg]\", or in the scene "
+                 "file, as survey_columns = "
                  "[\"depth [m]\", \"dip [deg]\", \"azimuth [deg]\"]")
 SURVEY_KEY = "survey_columns"
 
 
 def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = None, advice: str = SURVEY_ADVICE,
          key: str = SURVEY_KEY) -> Found:
-    """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. advice: to an author whose
-    file has no such heads; key: of the scene file that gives them, "" if there is none. Raises TableError where the columns are not
-    found."""
+    """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. advice: to an
+    author whose file has no such heads; key: of the scene file that gives them, "" if there is none. Raises TableError
+    where the columns are not found."""
     places, rows, head_row = _heads(table, columns, given)
     width = len(given) if given is not None else len(head_row.cells) if head_row is not None else 0
     rows = _take_units(places, rows)
@@ -200,7 +204,8 @@ def _settle_unit(one: _Place, found: Found, rows: list[Row], key: str) -> None:
         found.remarks.append(f"column {one.index + 1} ({one.head}) has no unit: {column.assumed} is assumed")
         one.unit = column.assumed
     elif not one.unit:
-        found.faults.append(f"column {one.index + 1} ({one.head}) has no unit; write it in the head, as \"{one.head} [{column.unit}]\""
+        found.faults.append(f"column {one.index + 1} ({one.head}) has no unit; write it in the head, as \"{one.head} "
+                            f"[{column.unit}]\""
                             + (f", or give {key} in the scene file" if key else ""))
         one.unit = column.unit
     found.heads[column.key], found.unit[column.key] = one.head, one.unit
@@ -221,7 +226,8 @@ def _decimal_comma(table: Table, places: list[_Place], rows: list[Row]) -> bool:
     cells = [row.cells[one.index] for row in rows for one in places if one.column.unit and one.index < len(row.cells)]
     if any("." in cell for cell in cells):
         return False
-    sure = [cell for cell in cells if re.fullmatch(r"[-+]?(?:\d{4,},\d+|\d+,\d{1,2}|\d+,\d{4,}|0\d*,\d+)", cell.strip())]
+    sure = [cell for cell in cells if re.fullmatch(r"[-+]?(?:\d{4,},\d+|\d+,\d{1,2}|\d+,\d{4,}|0\d*,\d+)",
+                                                   cell.strip())]
     return bool(sure)
 
 
@@ -246,7 +252,8 @@ def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
     if _is_missing(text, one, missing):
         raise units.UnitError("is a missing value; fill in the value or delete the line")
     if text.startswith("="):
-        raise units.UnitError("is a formula without a value; open the file in Excel, so that it is computed, and save it")
+        raise units.UnitError("is a formula without a value; open the file in Excel, so that it is computed, "
+                              "and save it")
     if comma:
         text = text.replace(",", ".")
     bearing = re.fullmatch(r"([NS])\s*([\d.]+)\s*°?\s*([EW])", text, re.I) if one.column.unit == "rad" else None
@@ -287,15 +294,18 @@ def _cell_of(number: Decimal, one: _Place, rest: str) -> Cell:
 
 
 def _check_widths(width: int, rows: list[Row], found: Found, bare: bool) -> None:
-    """Cells that are separated by commas, of which one may be within a number: twice as many cells as heads in all rows are decimal commas;
-    more numbers than heads in some row may be 1,000. bare: a file without heads, which may have more columns, the same in all rows."""
+    """Cells that are separated by commas, of which one may be within a number: twice as many cells as heads in all rows
+    are decimal commas; more numbers than heads in some row may be 1,000. bare: a file without heads, which may have
+    more columns, the same in all rows."""
     bad = [row for row in rows if len(row.cells) >= 2 * width]
     if bad and len(bad) == len(rows):
-        found.faults.append(f"line {bad[0].line} has {len(bad[0].cells)} cells below {width} heads: with decimal commas the cells must "
+        found.faults.append(f"line {bad[0].line} has {len(bad[0].cells)} cells below {width} heads: with decimal "
+                            "commas the cells must "
                             "be separated by semicolons, tabs or blanks")
         return
     usual = max(width, min((len(row.cells) for row in rows), default=0)) if bare else width
     for row in rows:
         if any(_is_number(cell) for cell in row.cells[usual:] if cell):
-            found.faults.append(f"line {row.line} has {len(row.cells)} cells below {usual} heads: is a comma within a number, as 1,000? Take it out, put the "
+            found.faults.append(f"line {row.line} has {len(row.cells)} cells below {usual} heads: is a comma within a "
+                                "number, as 1,000? Take it out, put the "
                                 "number in quotes, or separate the cells by semicolons")

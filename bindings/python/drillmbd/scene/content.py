@@ -18,7 +18,8 @@ from .source import Source
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
-PARTS = ("string", "body", "stabiliser", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
+PARTS = ("string", "body", "stabiliser", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input",
+         "event")
 NAMED = ("string", "body", "stabiliser", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
 SINGLE = ("environment", "hole")
 SLIPS = ("slip_axial", "slip_rotation")
@@ -44,11 +45,15 @@ class Scene:
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
     remarks: list[Problem] = field(default_factory=list)   #: what was assumed of the values of the file
     source: Source | None = None   #: the text of the file
-    inline: set[str] = field(default_factory=set)          #: time functions that the file gives as a value in the place of a name
-    changed: Callable[[Mapping[str, Any]], Scene] | None = field(default=None, compare=False, repr=False)  #: read again with changes by key
-    divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
+    #: time functions that the file gives as a value in the place of a name
+    inline: set[str] = field(default_factory=set)
+    #: read again with changes by key
+    changed: Callable[[Mapping[str, Any]], Scene] | None = field(default=None, compare=False, repr=False)
+    #: pipes for which the file gives no elements and one does not suffice
+    divided: list[Divided] = field(default_factory=list)
 
-    progress: Callable[[float], Any] | None = field(default=None, compare=False)  #: of the analyses of its sims, for a terminal
+    #: of the analyses of its sims, for a terminal
+    progress: Callable[[float], Any] | None = field(default=None, compare=False)
 
     def new_sim(self) -> Sim:
         """A sim with the options of the scene."""
@@ -68,7 +73,8 @@ class Scene:
         if analysis == "fatigue" and "stress_range" not in values and "yield_stress" in self.limits:
             values["stress_range"] = 2.0 * values.get("concentration", 1.0) * self.limits["yield_stress"]
         if analysis == "buckling":  # the equilibrium of [static] is one with this friction only
-            values = {**{key: value for key, value in self.analyses.get("static", {}).items() if key in SLIPS}, **values}
+            values = {**{key: value for key, value in self.analyses.get("static", {}).items() if key in SLIPS},
+                      **values}
         if analysis in ("response", "speeds") and analysis in self.analyses:
             from ..rotating import options_of
             values = {**values, **options_of(self, analysis)}
@@ -110,13 +116,16 @@ class Scene:
         def asked(scene: Scene) -> Any:
             outputs = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.outputs]
-            analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses or name in ("static", "modes")}
+            analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses
+                        or name in ("static", "modes")}
             for name, key in (("response", "excitation"), ("speeds", "order")):
                 if name in analyses:
                     kind = {"kind": int(EXCITATION_ECCENTRICITY)} if key == "order" else {}
-                    analyses[name][key] = [filled("response excitation", {**kind, **one}) for one in analyses[name][key]]
+                    analyses[name][key] = [filled("response excitation", {**kind, **one})
+                                           for one in analyses[name][key]]
             analyses = map_ids(analyses, lambda part: (part.index, bool(part)))
             failures = map_ids([vars(one) for one in scene.failures], lambda part: (part.index, bool(part)))
-            return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.results, outputs, scene.pipes, analyses, scene.limits,
+            return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.results, outputs,
+                    scene.pipes, analyses, scene.limits,
                     scene.variability, failures)
         return asked(self) == asked(other) and self.model.same_scene(other.model)

@@ -31,16 +31,20 @@ class Divided:
     def text(self) -> Phrase:
         """The division and its reason."""
         last = self.first + self.count - 1
-        pipes = phrase("pipe {first}", first=self.first) if self.count == 1 else phrase("pipes {first} to {last}", first=self.first, last=last)
-        return phrase("{string}, {pipes}: divided into {elements} elements each, because one element would have an estimated error of {error:.2g} % of "
-                      "the yield strength in the bending stress; set elements to choose another number", string=self.string, pipes=pipes,
+        pipes = (phrase("pipe {first}", first=self.first) if self.count == 1
+                 else phrase("pipes {first} to {last}", first=self.first, last=last))
+        return phrase("{string}, {pipes}: divided into {elements} elements each, because one element would have an "
+                      "estimated error of {error:.2g} % of "
+                      "the yield strength in the bending stress; set elements to choose another number",
+                      string=self.string, pipes=pipes,
                       elements=self.elements, error=100.0 * self.error)
 
 
 def divide(scene: Scene, pipes: list[Divided], content: dict[str, Any]) -> bool:
     """Sets the elements of pipes whose estimated error exceeds MOST_ERROR, here and in the content of the file. Returns
     whether any are divided."""
-    errors = {name: scene.model.mesh_errors(scene.names[name], scene.pipes[name]) for name in {one.string for one in pipes}}
+    errors = {name: scene.model.mesh_errors(scene.names[name], scene.pipes[name])
+              for name in {one.string for one in pipes}}
     for one in pipes:
         one.error = max(errors[one.string][one.first:one.first + one.count])
         one.elements = min(MOST_ELEMENTS, max(1, math.ceil(math.sqrt(one.error / MOST_ERROR))))

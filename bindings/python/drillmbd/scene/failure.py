@@ -29,8 +29,8 @@ class Key:
 
 @dataclass(frozen=True)
 class Kind:
-    """A limit state. Other modules use a kind through this registry only; the functions that find its demand from a run, a static
-    state or torque and drag stand beside it by the same name in drillmbd.probability.limits."""
+    """A limit state. Other modules use a kind through this registry only; the functions that find its demand from a
+    run, a static state or torque and drag stand beside it by the same name in drillmbd.probability.limits."""
     unit: str                           #: of demand and limit
     about: str
     default: float | str | None = None  #: of the limit; a text names a key of [limits]
@@ -44,35 +44,57 @@ class Kind:
 
 IN_TIME = ("run",)
 KINDS: dict[str, Kind] = {
-    "bit-stuck": Kind("s", "longest time that the bit does not turn while the rig does", None, ("bit", "head"), {"speed": Key("rad/s", 0.1)},
+    "bit-stuck": Kind("s", "longest time that the bit does not turn while the rig does", None, ("bit", "head"),
+                      {"speed": Key("rad/s", 0.1)},
                       IN_TIME),
     "rig-torque": Kind("N m", "largest torque of the rotation drive", "torque", ("head",)),
     "rig-push": Kind("N", "largest push of the feed drive", "push", ("feed",)),
     "rig-pull": Kind("N", "largest pull of the feed drive", "pull", ("feed",)),
-    "lock-up": Kind("-", "share of the push at the rig that arrives as load of the bit, means over the time; fails below", 0.1,
+    "lock-up": Kind("-",
+                    "share of the push at the rig that arrives as load of the bit, means over the time; fails below",
+                    0.1,
                     ("bit", "feed"), low=True),
     "helical-buckling": Kind("-", "largest share of the load of helical buckling", 1.0, ("string",)),
-    "stress": Kind("-", "largest equivalent stress over the strength", 1.0, ("string",), {"strength": Key("Pa", "yield_stress", True)}),
-    "connection-torque": Kind("N m", "largest torque that tightens right-hand threads, as turning towards +x does", "make_up_torque", ("string",),
-                              source="make-up torque of the threads: threads that are turned beyond it in the hole are made up further or yield (API RP 7G, "
-                              "which computes it as the torque that stresses the weaker of pin and box to 60 % of the minimum yield strength)"),
+    "stress": Kind("-", "largest equivalent stress over the strength", 1.0, ("string",),
+                   {"strength": Key("Pa", "yield_stress", True)}),
+    "connection-torque": Kind("N m", "largest torque that tightens right-hand threads, as turning towards +x does",
+                              "make_up_torque", ("string",),
+                              source="make-up torque of the threads: threads that are turned beyond it in the hole are "
+                                     "made up further or yield (API RP 7G, "
+                              "which computes it as the torque that stresses the weaker of pin and box to 60 % of the "
+                              "minimum yield strength)"),
     "back-off": Kind("N m", "largest torque that loosens right-hand threads", None, ("string",), {}, ("static", "run")),
     "fatigue": Kind("-", "damage of a pass (Miner's sum)", 1.0, ("string",),
-                    {"curve_stress": Key("Pa", None, True), "curve_cycles": Key("-", 1e6, True), "slope": Key("-", None, True),
+                    {"curve_stress": Key("Pa", None, True), "curve_cycles": Key("-", 1e6, True),
+                     "slope": Key("-", None, True),
                      "endurance": Key("Pa", 0.0), "concentration": Key("-", 1.0)}, IN_TIME),
     "lateral-acceleration": Kind("m/s2", "largest acceleration across the axis", None, ("string",), {}, IN_TIME),
-    "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, ("bit",), {"load": Key("N", 0.0)}, IN_TIME),
-    "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", 8.7e6, ("string",), {"width": Key("m", None, True)},
-                          source="uniaxial compressive strength of soft coal, 10 MPa times the strength coefficient f = 0.87 of Protodyakonov (soft class of "
-                          "three coal mines, Processes 2025, 13(7), 2195, doi:10.3390/pr13072195); give that of your seam"),
-    "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, ("bit",), {}, IN_TIME),
-    "jamming": Kind("N", "largest force on rods held by collapsed coal or cuttings that the rig overcomes, by pull or by torque at the `diameter` "
-                    "that is held, beside the friction of the hole; fails below the holding force, which is the limit", None, ("string",),
-                    {"pull": Key("N", "pull", True), "torque": Key("N m", "torque", True), "diameter": Key("m", None, True)}, ("torque-drag",), low=True,
-                    source="no default: no public measurement of the force with which collapsed coal or cuttings hold rods was found"),
-    "leaves-seam": Kind("m", "largest vertical distance of the hole, as far as the string reaches, from the course that the scene gives, where the "
-                        "survey varies; the limit is the coal above or below that course", source="no default: the thickness of the seam is that of your mine"),
-    "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0, (), {}, ("static", "run"), free=True)}
+    "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, ("bit",),
+                           {"load": Key("N", 0.0)}, IN_TIME),
+    "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", 8.7e6, ("string",),
+                          {"width": Key("m", None, True)},
+                          source="uniaxial compressive strength of soft coal, 10 MPa times the strength coefficient f "
+                                 "= 0.87 of Protodyakonov (soft class of "
+                          "three coal mines, Processes 2025, 13(7), 2195, doi:10.3390/pr13072195); give that of your "
+                          "seam"),
+    "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, ("bit",), {},
+                       IN_TIME),
+    "jamming": Kind("N",
+                    "largest force on rods held by collapsed coal or cuttings that the rig overcomes, by pull or by "
+                    "torque at the `diameter` "
+                    "that is held, beside the friction of the hole; fails below the holding force, which is the limit",
+                    None, ("string",),
+                    {"pull": Key("N", "pull", True), "torque": Key("N m", "torque", True),
+                     "diameter": Key("m", None, True)}, ("torque-drag",), low=True,
+                    source="no default: no public measurement of the force with which collapsed coal or cuttings hold "
+                           "rods was found"),
+    "leaves-seam": Kind("m",
+                        "largest vertical distance of the hole, as far as the string reaches, from the course that the "
+                        "scene gives, where the "
+                        "survey varies; the limit is the coal above or below that course",
+                        source="no default: the thickness of the seam is that of your mine"),
+    "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0, (), {},
+                ("static", "run"), free=True)}
 
 
 @dataclass
@@ -84,7 +106,8 @@ class Failure:
     values: dict[str, float]    #: further keys of the kind, and from, to [s]
     parts: dict[str, Id]        #: bit, head, feed, string
     names: dict[str, str]       #: of these parts
-    assumed: bool = field(default=False, compare=False)  #: the limit is a default number of its kind, which has a source
+    #: the limit is a default number of its kind, which has a source
+    assumed: bool = field(default=False, compare=False)
 
 
 class Reader:
@@ -96,7 +119,8 @@ class Reader:
 
     def failures(self) -> list[Failure]:
         """All of the scene."""
-        found = [self._failure(path, number, table) for number, (path, table) in enumerate(self.loader.parts("failure"))]
+        found = [self._failure(path, number, table)
+                 for number, (path, table) in enumerate(self.loader.parts("failure"))]
         return [one for one in found if one is not None]
 
     def _failure(self, path: Path, number: int, table: dict[str, Any]) -> Failure | None:
@@ -114,14 +138,16 @@ class Reader:
         self.names.add(str(name))
         kind, needs = KINDS[word], KINDS[word].needs
         self._answers(path, word, kind)
-        keys = {"limit": Field("limit", "quantity", kind.unit), "from": Field("from", "quantity", "s"), "to": Field("to", "quantity", "s"),
+        keys = {"limit": Field("limit", "quantity", kind.unit), "from": Field("from", "quantity", "s"),
+                "to": Field("to", "quantity", "s"),
                 **{key: Field(key, "quantity", one.unit) for key, one in kind.keys.items()}}
         values = self.loader.read(path, table, keys, ("name", "kind", *needs))
         self._defaults(path, table, kind, word, values)
         parts, names = self._parts(path, table, needs)
         if "limit" not in values or len(parts) < len(needs):
             return None
-        return Failure(str(name), word, values.pop("limit"), values, parts, names, "limit" not in table and isinstance(kind.default, float) and bool(kind.source))
+        return Failure(str(name), word, values.pop("limit"), values, parts, names,
+                       "limit" not in table and isinstance(kind.default, float) and bool(kind.source))
 
     def _answers(self, path: Path, word: str, kind: Kind) -> None:
         """The question of [variability] must find the demand."""
@@ -145,7 +171,8 @@ class Reader:
             values["limit"] = limit
         elif "limit" not in table:
             also = f", or [limits] {kind.default}" if isinstance(kind.default, str) else ""
-            self.problems.add(path, None, f"{word} must have a limit [{kind.unit}]{also}" + (f" ({kind.source})" if kind.source else ""))
+            self.problems.add(path, None, f"{word} must have a limit [{kind.unit}]{also}"
+                              + (f" ({kind.source})" if kind.source else ""))
         elif "limit" in values and not kind.free and not values["limit"] > 0.0:
             self.problems.add(path + ("limit",), table["limit"], "must be > 0")
         if "from" in values and "to" in values and not values["to"] > values["from"]:
@@ -202,16 +229,19 @@ class Reader:
 
 
 def _asked(questions: tuple[str, ...]) -> str:
-    words = {"run": 'a run in time: [variability] question = "run"', "static": 'question = "static"', "torque-drag": 'question = "torque-drag"'}
+    words = {"run": 'a run in time: [variability] question = "run"', "static": 'question = "static"',
+             "torque-drag": 'question = "torque-drag"'}
     return " or ".join(words[one] for one in reversed(questions))
 
 
 def _called(need: str) -> str:
-    return {"bit": "a bit", "string": "a string", "head": "a drive of rotation (rx)", "feed": "a drive along the string (x)"}[need]
+    return {"bit": "a bit", "string": "a string", "head": "a drive of rotation (rx)",
+            "feed": "a drive along the string (x)"}[need]
 
 
 def unit_of(loader: Loader, path: Path) -> str | None:
-    """The unit of a number of a failure at a path of the scene, as ("failure", 0, "limit"); None where there is none."""
+    """The unit of a number of a failure at a path of the scene, as ("failure", 0, "limit"); None where there is
+    none."""
     number = path[1] if len(path) == 3 and isinstance(path[1], int) else 0
     found = loader.parts("failure")
     kind = KINDS.get(str(found[number][1].get("kind"))) if number < len(found) else None
@@ -232,6 +262,8 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     """The part of the JSON schema, by functions of scene.schema."""
     keys = {key for kind in KINDS.values() for key in kind.keys} | {"limit", "from", "to"}
     parts = {one for kind in KINDS.values() for one in kind.needs}
-    about = "; ".join(f"{word} [{kind.unit}]: {kind.about}" + (f" (limit: {kind.source})" if kind.source else "") for word, kind in KINDS.items())
-    return many(table({}, ("kind",), name=name, kind={"enum": list(KINDS), "description": about},  # type: ignore[no-any-return]
+    about = "; ".join(f"{word} [{kind.unit}]: {kind.about}" + (f" (limit: {kind.source})" if kind.source else "")
+                      for word, kind in KINDS.items())
+    return many(table({}, ("kind",), name=name,
+                      kind={"enum": list(KINDS), "description": about},  # type: ignore[no-any-return]
                       **{key: quantity for key in sorted(keys)}, **{key: name for key in sorted(parts)}))

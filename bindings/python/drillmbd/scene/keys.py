@@ -12,27 +12,43 @@ from .problems import meant
 # Tables in the order in which a scene is written, with the struct of their fields and the keys in common use.
 TABLES: dict[str, tuple[str, str]] = {
     "environment": ("environment", "fluid_density gravity lateral_damping flow_rate viscometer"),
-    "hole": ("hole", "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic friction_table stiffness"),
+    "hole": ("hole",
+             "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic "
+             "friction_table stiffness"),
     "hole.section": ("section", "depth diameter mu_static mu_dynamic"), "string": ("string", "name start_depth"),
-    "string.pipes": ("pipes", "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
+    "string.pipes": ("pipes",
+                     "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter "
+                     "joint_inner_diameter "
                               "eccentricity damping_time yield_strength"),
     "bit": ("bit", "name load mass diameter rock_law"), "drive": ("drive", "name component time_function kind"),
-    "time_function.segment": ("segment", "kind h0 h1 x0 x1 table"), "stabiliser": ("stabiliser", ""), "body": ("body", "name mass"),
-    "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"), "spring": ("spring", ""),
-    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress make_up_torque"), "run": ("", "end step static"),
-    "results": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
-    "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
+    "time_function.segment": ("segment", "kind h0 h1 x0 x1 table"), "stabiliser": ("stabiliser", ""),
+    "body": ("body", "name mass"),
+    "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"),
+    "spring": ("spring", ""),
+    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress make_up_torque"),
+    "run": ("", "end step static"),
+    "results": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"),
+    "response": ("response", ""),
+    "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""),
+    "sim": ("sim", "")}
 
 _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
-         "viscometer": ("", "", "readings in degrees of a Fann 35 viscometer by speed in rpm, as {600 = 52, 300 = 34}, for consistency, "
+         "viscometer": ("", "",
+                        "readings in degrees of a Fann 35 viscometer by speed in rpm, as {600 = 52, 300 = 34}, for "
+                        "consistency, "
                                 "flow_exponent and yield_stress"),
          "rig": ("", "", "name of a catalogue, for torque, push and pull: drillmbd catalogue"),
-         "count": ("", "1", "number of equal pipes, one after the other"), "name": ("", "", "for messages, and for other tables to refer to"),
+         "count": ("", "1", "number of equal pipes, one after the other"),
+         "name": ("", "", "for messages, and for other tables to refer to"),
          "survey": ("", "", 'rows of depth, inclination and azimuth, as [["0 m", "90 deg", "0 deg"], ...]'),
          "survey_file": ("", "", "file of the survey: CSV, text with blanks, LAS 2.0, Excel"),
-         "survey_columns": ("", "", 'heads of the columns in their order, as ["depth [m]", "dip [deg]", "azimuth [deg]"]'),
-         "friction_table": ("", "", 'pairs of speed of sliding and coefficient, as [["0 m/s", 0.5], ["70 mm/s", 0.5], ["80 mm/s", 0.24]] (static until '
-                            "70 mm/s), instead of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or bristle"),
+         "survey_columns": ("", "",
+                            'heads of the columns in their order, as ["depth [m]", "dip [deg]", "azimuth [deg]"]'),
+         "friction_table": ("", "",
+                            'pairs of speed of sliding and coefficient, as [["0 m/s", 0.5], ["70 mm/s", 0.5], ["80 '
+                            'mm/s", 0.24]] (static until '
+                            "70 mm/s), instead of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or "
+                            "bristle"),
          "table": ("", "", 'pairs, as [["0 s", "0 kN"], ["2 s", "8 kN"]]')}
 
 
@@ -60,7 +76,8 @@ def _default(table: str, field: Field) -> str:
 def _meaning(field: Field) -> str:
     if field.kind == "enum":
         return "one of " + ", ".join(words_of(field.enum))
-    text = re.sub(r"(?:;|,)? ?default[^;]*|\(default\)|; shape \([^)]*\)|, shape \([^)]*\)|shape \([^)]*\)", "", field.about)
+    text = re.sub(r"(?:;|,)? ?default[^;]*|\(default\)|; shape \([^)]*\)|, shape \([^)]*\)|shape \([^)]*\)", "",
+                  field.about)
     return re.sub(r"\s+", " ", text.replace("{0, 0} : ", "left out: ").replace("{0, 0}: ", "left out: ")).strip(" ;,")
 
 

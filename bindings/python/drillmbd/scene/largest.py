@@ -13,8 +13,10 @@ BETWEEN, MOST_BREAKPOINTS = 16, 2000  #: times between breakpoints, breakpoints 
 
 
 def bounded(segments: Any, time_functions: Sequence[Any]) -> list[dict[str, Any]]:
-    """The segments, each one per revolution as a harmonic of its largest amplitude |h1| + |share| max |w|; w is the time function `of`.
-    Where w is a function of the caller, whose largest value is not known, the segment stays. time_functions: the segments of all time functions of the model, by number."""
+    """The segments, each one per revolution as a harmonic of its largest amplitude |h1| + |share| max |w|; w is the
+    time function `of`.
+    Where w is a function of the caller, whose largest value is not known, the segment stays. time_functions: the
+    segments of all time functions of the model, by number."""
     found = []
     for one in segments:
         if one.get("kind") == enums.SEGMENT_PER_REVOLUTION:
@@ -22,24 +24,28 @@ def bounded(segments: Any, time_functions: Sequence[Any]) -> list[dict[str, Any]
             if share and speed is None:
                 found.append(one)
                 continue
-            one = {"kind": int(enums.SEGMENT_HARMONIC), "h0": one.get("h0", 0.0), "h1": abs(one.get("h1", 0.0)) + share * (speed or 0.0)}
+            one = {"kind": int(enums.SEGMENT_HARMONIC), "h0": one.get("h0", 0.0),
+                   "h1": abs(one.get("h1", 0.0)) + share * (speed or 0.0)}
         found.append(one)
     return found
 
 
 def largest_of(segments: Any, time_functions: Sequence[Any] = ()) -> float | None:
-    """The largest magnitude of a sum of segments over all times; None if a function of the caller is among them, or a segment per revolution whose
-    time function is not among `time_functions`. Steps and tables are added at the same times, so that a step up and one down later do not add up;
-    harmonics, segments per revolution and tables that repeat count with their largest magnitude at any time."""
+    """The largest magnitude of a sum of segments over all times; None if a function of the caller is among them, or a
+    segment per revolution whose time function is not among `time_functions`. Steps and tables are added at the same
+    times, so that a step up and one down later do not add up; harmonics, segments per revolution and tables that repeat
+    count with their largest magnitude at any time."""
     if time_functions:
         segments = bounded(segments, time_functions)
-    segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment else enums.SEGMENT_CONSTANT))} for segment in segments]
+    segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment
+                                                    else enums.SEGMENT_CONSTANT))} for segment in segments]
     if not all(by_numbers(segment) for segment in segments):
         return None
     if len(segments) == 1 and segments[0].get("table"):
         return float(max(abs(value) for _, value in segments[0]["table"]))
     swing = sum(abs(segment.get("h1", 0.0)) for segment in segments if segment["kind"] == enums.SEGMENT_HARMONIC)
-    swing += sum(max(abs(value) for _, value in segment["table"]) for segment in segments if segment["kind"] == enums.SEGMENT_PERIODIC)
+    swing += sum(max(abs(value) for _, value in segment["table"])
+                 for segment in segments if segment["kind"] == enums.SEGMENT_PERIODIC)
     return float(swing + max(abs(sum(_value_at(segment, time) for segment in segments)) for time in _times(segments)))
 
 
@@ -52,9 +58,12 @@ def _times(segments: list[dict[str, Any]]) -> list[float]:
         elif segment["kind"] in STEPS:
             found.update((segment.get("x0", 0.0), segment.get("x1", 1.0)))
     breakpoints = sorted(found)
-    if sum(segment["kind"] in STEPS for segment in segments) + any(segment["kind"] == enums.SEGMENT_TABLE for segment in segments) < 2 or len(breakpoints) > MOST_BREAKPOINTS:
+    if (sum(segment["kind"] in STEPS for segment in segments) + any(segment["kind"] == enums.SEGMENT_TABLE
+                                                                    for segment in segments) < 2
+        or len(breakpoints) > MOST_BREAKPOINTS):
         return breakpoints
-    return [a + (b - a) * k / BETWEEN for a, b in zip(breakpoints, breakpoints[1:]) for k in range(BETWEEN)] + breakpoints[-1:]
+    return [a + (b - a) * k / BETWEEN for a, b in zip(breakpoints, breakpoints[1:])
+            for k in range(BETWEEN)] + breakpoints[-1:]
 
 
 def _value_at(segment: dict[str, Any], time: float) -> float:
@@ -66,7 +75,8 @@ def _value_at(segment: dict[str, Any], time: float) -> float:
         return h0
     begin, end = segment.get("x0", 0.0), segment.get("x1", 1.0)
     d = float(min(max((time - begin) / (end - begin), 0.0), 1.0))
-    rise: float = d * d * (3.0 - 2.0 * d) if segment["kind"] == enums.SEGMENT_STEP else d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
+    rise: float = (d * d * (3.0 - 2.0 * d) if segment["kind"] == enums.SEGMENT_STEP
+                   else d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d))
     return h0 + (h1 - h0) * rise
 
 

@@ -40,8 +40,8 @@ def _depth_after(line: str, depth: int, quote: str) -> tuple[int, str, str]:
 
 
 def scan(text: str) -> Iterator[tuple[Path, str, bool]]:
-    """For each line the path of the key or table that begins or continues in it, its comment ("" if it has none), and whether the
-    key or table begins there. Keys in inline tables count as the key that holds them."""
+    """For each line the path of the key or table that begins or continues in it, its comment ("" if it has none), and
+    whether the key or table begins there. Keys in inline tables count as the key that holds them."""
     counts: dict[Path, int] = {}
     table: Path = ()
     key: Path = ()
@@ -85,7 +85,8 @@ def _table(keys: list[str], is_array: bool, counts: dict[Path, int]) -> Path:
 
 
 def line_of(found: dict[Path, int], path: Path) -> int:
-    """The line of the path or of the first thing in it, as [[bitt]] for "bitt"; else of the closest thing it stands in."""
+    """The line of the path or of the first thing in it, as [[bitt]] for "bitt"; else of the closest thing it stands
+    in."""
     while path and path not in found:
         inside = [line for other, line in found.items() if other[:len(path)] == path]
         if inside:

@@ -92,9 +92,10 @@ name = "middle of the string"
 quantity = "vibration-z"
 place = {{part = "rods", pipe = {middle}, fraction = 0.5}}
 limit = "{clearance}"
-"""
+"""  # noqa: E501
 
-#: Scatter and limits to begin with. Friction in water-based mud is 0.25 .. 0.40 (Johancsik, Friesen and Dawson 1984, doi:10.2118/11380-PA).
+#: Scatter and limits to begin with. Friction in water-based mud is 0.25 .. 0.40 (Johancsik, Friesen and Dawson 1984,
+#: doi:10.2118/11380-PA).
 _VARIABILITY = """[variability]
 question = "torque-drag"       # or "static", "run", "auto": see drillmbd probability --help
 samples = 10000
@@ -143,14 +144,16 @@ strength = "550 MPa"           # of your pipes; left out: [limits] yield_stress
 
 [[failure]]
 kind = "helical-buckling"      # limit 1: the load at which the string becomes a helix
-"""
-_COMMENTED = "\n# How often does it fail? Take the # before the lines below away, put in your own values, and run: drillmbd probability FILE\n" + "".join(
-    f"# {line}".rstrip() + "\n" for line in _VARIABILITY.splitlines())
+"""  # noqa: E501
+_COMMENTED = (
+    "\n# How often does it fail? Take the # before the lines below away, put in your own values, and run: "
+    "drillmbd probability FILE\n"
+    + "".join(f"# {line}".rstrip() + "\n" for line in _VARIABILITY.splitlines()))
 
 _STRAIGHT = """# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"
 # (dip from the horizontal, up positive; or inclination from the downward vertical; azimuth clockwise from north).
 dip = "{dip}"
-azimuth = "0 deg\""""
+azimuth = "0 deg\""""  # noqa: E501
 
 _LIMITS = """# [limits]                     # of your rig and pipes, so that commands compare with them
 # torque = "4 kN m"
@@ -160,8 +163,8 @@ _LIMITS = """# [limits]                     # of your rig and pipes, so that com
 
 
 def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
-    """The scene. given: values with units, in place of the defaults, names of a catalogue for "rods" and "rig", and a file for "survey",
-    which a scene in the folder names. Raises ValueError that names the option."""
+    """The scene. given: values with units, in place of the defaults, names of a catalogue for "rods" and "rig", and a
+    file for "survey", which a scene in the folder names. Raises ValueError that names the option."""
     values: dict[str, Any] = {}
     numbers: dict[str, float] = {}
     asked, given = given, _with_rods(kind, given)
@@ -179,10 +182,12 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
     if abs(numbers["dip"]) > 0.5 * math.pi * (1.0 + 1e-12):
         raise ValueError(f"--dip {values['dip']} must be within -90 deg .. 90 deg, from the horizontal, up positive")
     if numbers["rod"] >= numbers["hole"] or not 0.0 <= numbers["bore"] < numbers["rod"]:
-        raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
+        raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore "
+                         f"{values['bore']} and --hole {values['hole']}")
     count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
     if not 1 <= count <= 2 ** 20:
-        raise ValueError(f"--length {values['length']} must be 1 to {2 ** 20} times --rod-length, {values['rod_length']}")
+        raise ValueError(f"--length {values['length']} must be 1 to {2 ** 20} times --rod-length, "
+                         f"{values['rod_length']}")
     values["middle"] = count // 2
     values["clearance"] = f"{0.5e3 * (numbers['hole'] - numbers['rod']):.3g} mm"
     title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
@@ -220,20 +225,25 @@ def _surveyed(given: dict[str, str], folder: str) -> tuple[str, str]:
         raise ValueError("\n".join(f"--survey {name}: {one.text}" for one in problems.found))
     notes = "".join(f"# {one.text}\n" for one in problems.remarks)
     lines = f"# {len(rows)} stations from {rows[0][0]:g} m to {rows[-1][0]:g} m\n{notes}"
-    return lines + f"survey_file = {json.dumps(os.path.relpath(name, folder), ensure_ascii=False)}", f"{rows[-1][0]:g} m"
+    return (lines + f"survey_file = {json.dumps(os.path.relpath(name, folder), ensure_ascii=False)}",
+            f"{rows[-1][0]:g} m")
 
 
-def _named(given: dict[str, str], asked: dict[str, str], values: dict[str, Any], numbers: dict[str, float]) -> dict[str, str]:
+def _named(given: dict[str, str], asked: dict[str, str], values: dict[str, Any],
+           numbers: dict[str, float]) -> dict[str, str]:
     """The lines of pipes and limits. numbers: diameters of rods by name are put there."""
-    lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"        # the wall is an assumption'
-             if "bore" not in asked else f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"', "limits": _LIMITS}
+    lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"        # the wall is '
+                      'an assumption'
+             if "bore" not in asked else f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"',
+             "limits": _LIMITS}
     if given.get("rods"):
         found = _found("rods", given["rods"])
         for name, key in (("rod", "outer_diameter"), ("bore", "inner_diameter")):
             values[name], numbers[name] = found.values[key], units.parse(found.values[key], "m")
         lines["pipes"] = f"# {found.text()}\npipe = {json.dumps(given['rods'], ensure_ascii=False)}"
     if given.get("rig"):
-        lines["limits"] = f"[limits]\n# {_found('rig', given['rig']).text()}\nrig = {json.dumps(given['rig'], ensure_ascii=False)}"
+        lines["limits"] = (f"[limits]\n# {_found('rig', given['rig']).text()}\nrig = "
+                           f"{json.dumps(given['rig'], ensure_ascii=False)}")
     return lines
 
 
@@ -247,7 +257,8 @@ def _found(option: str, name: str) -> catalogue.Found:
 
 def _with_unit(value: str, name: str) -> str:
     """"--length 200 --dip 5 --rod 73" is in metres, degrees and millimetres, as mines speak."""
-    usual = {"length": "m", "rod_length": "m", "dip": "deg", "hole": "mm", "rod": "mm", "bore": "mm", "bit_load": "kN", "speed": "rpm", "feed": "mm/s",
+    usual = {"length": "m", "rod_length": "m", "dip": "deg", "hole": "mm", "rod": "mm", "bore": "mm", "bit_load": "kN",
+             "speed": "rpm", "feed": "mm/s",
              "mud": "kg/m3"}
     try:
         float(value)

@@ -20,7 +20,8 @@ class NoNumber(ValueError):
 
 
 def split(text: str) -> tuple[Decimal, str, bool]:
-    """The number at the beginning, the remaining text, and whether a sign of a diameter stands before it. Raises NoNumber."""
+    """The number at the beginning, the remaining text, and whether a sign of a diameter stands before it. Raises
+    NoNumber."""
     if len(text) > _MOST:
         raise NoNumber("is too long for a number with its unit")
     text = plain(_spelled_fractions(text))
@@ -82,4 +83,5 @@ def _by_comma(text: str, unit: str) -> str:
 
 def _are_thousands(groups: list[str]) -> bool:
     """1 to 3 digits that do not begin with 0, then groups of 3."""
-    return bool(re.fullmatch(r"[1-9]\d{0,2}", groups[0])) and all(len(group) == 3 and group.isdigit() for group in groups[1:])
+    return (bool(re.fullmatch(r"[1-9]\d{0,2}", groups[0])) and all(len(group) == 3 and group.isdigit()
+                                                                   for group in groups[1:]))

@@ -1,4 +1,5 @@
-"""Values of a scene file that are replaced before it is read: "hole.mu_dynamic", "string[0].pipes[1].length", "time_function[feed].segment.h1"."""
+"""Values of a scene file that are replaced before it is read: "hole.mu_dynamic", "string[0].pipes[1].length",
+"time_function[feed].segment.h1"."""
 from __future__ import annotations
 
 import re
@@ -22,18 +23,21 @@ def path_of_key(key: str) -> Path:
     """("string", 0, "pipes", 1, "length"); items by name as Named. Raises ValueError where the text is no key."""
     if not _KEY.fullmatch(key) or key.endswith("]"):
         brackets = "; a table whose name has brackets is given by its number" if "[" in key else ""
-        raise ValueError(f"{key!r} is no key; write it as hole.diameter, string[0].pipes[1].length or time_function[NAME].segment.h1{brackets}")
+        raise ValueError(f"{key!r} is no key; write it as hole.diameter, string[0].pipes[1].length or "
+                         f"time_function[NAME].segment.h1{brackets}")
     parts = re.findall(r"\[([^][]+)\]|([\w-]+)", key)
     return tuple((int(item) if re.fullmatch("[0-9]+", item) else Named(item)) if item else word for item, word in parts)
 
 
 def key_of_path(path: Path) -> str:
     """The text of path_of_key."""
-    return "".join(f"[{part}]" if isinstance(part, int) else f"[{part.name}]" if isinstance(part, Named) else f".{part}" for part in path)[1:]
+    return "".join(f"[{part}]" if isinstance(part, int) else f"[{part.name}]" if isinstance(part, Named) else f".{part}"
+                   for part in path)[1:]
 
 
 def by_number(key: str, content: dict[str, Any], typed: bool = False) -> str:
-    """The key with the numbers of the items that it names. typed: by a user, so that a number must not be the name of another item. Raises
+    """The key with the numbers of the items that it names. typed: by a user, so that a number must not be the name of
+    another item. Raises
     ValueError where there is no such name, with those that there are, or several."""
     found: list[Any] = []
     holder: Any = content
@@ -54,9 +58,11 @@ def by_number(key: str, content: dict[str, Any], typed: bool = False) -> str:
 
 
 def _names(table: str, holder: Any) -> list[Any]:
-    """Of the items of an array of tables; None of an item without one. A failure without a name has that of its kind."""
+    """Of the items of an array of tables; None of an item without one. A failure without a name has that of its
+    kind."""
     items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
-    return [one.get("name", one.get("kind") if table == "failure" else None) if isinstance(one, dict) else None for one in items]
+    return [one.get("name", one.get("kind") if table == "failure" else None) if isinstance(one, dict) else None
+            for one in items]
 
 
 def _other(number: int, table: str, holder: Any) -> str:
@@ -72,9 +78,11 @@ def _number(key: str, name: str, table: str, holder: Any) -> int:
     if names.count(name) == 1:
         return names.index(name)
     if name in names:
-        raise ValueError(f"{key!r}: {names.count(name)} tables [[{table}]] are named {name}; write the number, as {table}[{names.index(name)}]")
+        raise ValueError(f"{key!r}: {names.count(name)} tables [[{table}]] are named {name}; write the number, as "
+                         f"{table}[{names.index(name)}]")
     known = [one for one in names if isinstance(one, str)]
-    there = meant(name, known) if known else f"; none has a name: write the number, as {table}[0]" if names else f"; the scene has no [[{table}]]"
+    there = (meant(name, known) if known else
+             f"; none has a name: write the number, as {table}[0]" if names else f"; the scene has no [[{table}]]")
     raise ValueError(f"{key!r}: no [[{table}]] is named {name}{there}")
 
 

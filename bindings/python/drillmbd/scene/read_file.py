@@ -1,4 +1,5 @@
-"""Files that a user names: regular files up to a size, because a device has no end and a named pipe may never get a writer."""
+"""Files that a user names: regular files up to a size, because a device has no end and a named pipe may never get a
+writer."""
 from __future__ import annotations
 
 import os

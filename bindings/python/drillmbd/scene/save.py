@@ -1,6 +1,6 @@
-"""Writes a scene, or a model alone, as a scene file, so that reading it gives the same scene and the same run to the bit. Every
-value that decides the result is written, defaults too. Values keep the units in which the file has them; others are written in SI
-with all their digits. Comments stay beside their keys."""
+"""Writes a scene, or a model alone, as a scene file, so that reading it gives the same scene and the same run to the
+bit. Every value that decides the result is written, defaults too. Values keep the units in which the file has them;
+others are written in SI with all their digits. Comments stay beside their keys."""
 from __future__ import annotations
 
 import json
@@ -24,7 +24,8 @@ DEFAULTS = "# defaults"
 #: Absent limits and delays are numbers of this size in the library; they are left out.
 NO_LIMIT = 1e30
 #: Fields of the segments of a time function by their kind.
-SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.SEGMENT_STEP5: ("kind", "x0", "x1", "h0", "h1"),
+SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("kind", "x0", "x1", "h0", "h1"),
+                  enums.SEGMENT_STEP5: ("kind", "x0", "x1", "h0", "h1"),
                   enums.SEGMENT_HARMONIC: ("kind", "h0", "h1", "omega", "phase"),
                   enums.SEGMENT_PER_REVOLUTION: ("kind", "h0", "h1", "phase", "of", "share", "order")}
 
@@ -48,20 +49,23 @@ def save_record(scene: Scene | Model, path: Any) -> None:
     name = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     name = name if re.match(r"[A-Za-z_]", name) else f"scene_{name}"
     rows = [", ".join(f"0x{one:02x}" for one in found[at:at + 16]) + "," for at in range(0, len(found), 16)]
-    text = [f"/* Scene record for dmb_model_read({name}, sizeof {name}, NULL, &model). */", "/* clang-format off */", f"static const unsigned char {name}[{len(found)}] = {{",
+    text = [f"/* Scene record for dmb_model_read({name}, sizeof {name}, NULL, &model). */", "/* clang-format off */",
+            f"static const unsigned char {name}[{len(found)}] = {{",
             *(f"    {row}" for row in rows), "};"]
     path.write_text("\n".join(text) + "\n", encoding="utf-8")
 
 
 def saves(scene: Scene | Model, as_written: bool = True) -> str:
-    """The text of the file. as_written: with the comments and units of the file that the scene was read from; else in SI without
-    comments, so that two scenes that say the same have the same text."""
+    """The text of the file. as_written: with the comments and units of the file that the scene was read from; else in
+    SI without comments, so that two scenes that say the same have the same text."""
     return Writer(scene, scene.source if as_written and isinstance(scene, Scene) else None).text()
 
 
 def _is_default(value: Any) -> bool:
-    """Whether a default is a value, and no sign of one that is absent or as elsewhere: nothing, no part, no limit, a negative number."""
-    if value is None or value == "" or isinstance(value, (Id, Place)) or (isinstance(value, list) and any(isinstance(one, Id) for one in value)):
+    """Whether a default is a value, and no sign of one that is absent or as elsewhere: nothing, no part, no limit, a
+    negative number."""
+    if (value is None or value == "" or isinstance(value, (Id, Place))
+        or (isinstance(value, list) and any(isinstance(one, Id) for one in value))):
         return False
     numbers = value if isinstance(value, list) else [value]
     if any(isinstance(one, float) and not abs(one) < NO_LIMIT for one in numbers):
@@ -72,7 +76,8 @@ def _is_default(value: Any) -> bool:
 def defaults_of(struct: str, values: dict[str, Any]) -> dict[str, Any]:
     """The fields of a table that are not given, with their defaults."""
     usual = DEFINITIONS[struct]().describe(every=True)
-    return {key: usual[key] for key in fields_of(DEFINITIONS[struct]) if key not in values and key in usual and _is_default(usual[key])}
+    return {key: usual[key] for key in fields_of(DEFINITIONS[struct]) if key not in values and key in usual
+            and _is_default(usual[key])}
 
 
 def _value(value: Any) -> str:
@@ -104,7 +109,8 @@ class Writer:
         self.sections: list[dict[str, Any]] = []               # of the hole
         self.set_names: dict[int, str] = {}                    # given by Model.set_name
         self._sort()
-        self.inline = self._constants()                        # time function -> its value and unit, where a drive, bit or load states it
+        # time function -> its value and unit, where a drive, bit or load states it
+        self.inline = self._constants()
 
     # ---- From calls to parts ----------------------------------------------------------------------------------------
     def _sort(self) -> None:
@@ -128,12 +134,14 @@ class Writer:
             elif kind in ("constraint", "force"):
                 raise CannotSave(f"a {kind} by a function of Python cannot be written to a file")
             else:
-                self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "time_function" else arguments[0]))
+                self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "time_function"
+                                                        else arguments[0]))
         for kind, parts in self.parts.items():
             for number, (made, description) in enumerate(parts):
                 if made.index in self.set_names and isinstance(description, dict):
                     description["name"] = self.set_names[made.index]
-                own = description.get("name", "") if isinstance(description, dict) else self.set_names.get(made.index, "")
+                own = (description.get("name", "") if isinstance(description, dict)
+                       else self.set_names.get(made.index, ""))
                 free = own and own not in self.names.values()
                 self.names.setdefault(made.index, own if free else f"{kind}-{number}")
 
@@ -151,7 +159,8 @@ class Writer:
             found.update({drive[key].index: unit for key in ("time_function", "excitation") if key in drive})
         for kind, key, unit in (("bit", "load", "N"), ("load", "time_function", "-")):
             found.update({part[key].index: unit for _, part in self.parts.get(kind, []) if key in part})
-        found.update({segment["of"].index: "rad/s" for _, segments in self.parts.get("time_function", []) for segment in segments if segment.get("of")})
+        found.update({segment["of"].index: "rad/s" for _, segments in self.parts.get("time_function", [])
+                      for segment in segments if segment.get("of")})
         return found
 
     def _constants(self) -> dict[int, tuple[float, str]]:
@@ -159,7 +168,8 @@ class Writer:
         if self.scene is None:
             return {}
         known = self._units()
-        return {made.index: (float(segments[0].get("h0", 0.0)), known[made.index]) for made, segments in self.parts.get("time_function", [])
+        return {made.index: (float(segments[0].get("h0", 0.0)), known[made.index])
+                for made, segments in self.parts.get("time_function", [])
                 if self.names[made.index] in self.scene.inline and made.index in known}
 
     # ---- From parts to lines ----------------------------------------------------------------------------------------
@@ -182,12 +192,14 @@ class Writer:
             for number, (count, pipes) in enumerate(self.pipes.get(made.index, [])):
                 self._head("[[string.pipes]]", None if path is None else path + ("pipes", number))
                 self._key("count", count)
-                self._table("pipes", {"elements": 1, "damping_time": 0.0, **pipes})  # a file without them means other values
+                # a file without them means other values
+                self._table("pipes", {"elements": 1, "damping_time": 0.0, **pipes})
         for kind in PARTS[1:]:
             for made, description in self.parts.get(kind, []):
                 self._part(kind, made, description)
         self._settings()
-        lines = decorated(self.lines, self.source) if self.source else [line for text, _ in self.lines for line in text.split("\n")]
+        lines = (decorated(self.lines, self.source) if self.source else [line for text, _ in self.lines
+                                                                         for line in text.split("\n")])
         return "\n".join(lines) + "\n"
 
     def _own_name(self, kind: str, made: Id, description: dict[str, Any]) -> str | None:
@@ -212,13 +224,16 @@ class Writer:
         self.lines.append((f"{key} = {_value(value)}", path))
 
     def _table(self, struct: str, values: dict[str, Any], unit_of: Any = None, left_out: tuple[str, ...] = ()) -> None:
-        """The fields of a struct: those of the source in its order, the other given ones, then those at their defaults."""
+        """The fields of a struct: those of the source in its order, the other given ones, then those at their
+        defaults."""
         known = fields_of(DEFINITIONS[struct])
         order = self.source.order(self.at) if self.source else {}
         every = {**values, **defaults_of(struct, values)}
-        given = sorted((key for key in every if key in values or key in order), key=lambda key: order.get(key, len(order)))
+        given = sorted((key for key in every if key in values or key in order),
+                       key=lambda key: order.get(key, len(order)))
         usual = [key for key in every if key not in given]
-        lines = [(key, self._plain(known[key], every[key], unit_of(key) if unit_of else None)) for key in (*given, *usual)
+        lines = [(key, self._plain(known[key], every[key], unit_of(key) if unit_of else None))
+                 for key in (*given, *usual)
                  if key in known and key not in left_out and not (key == "name" and struct in NAMED)]
         explained = False
         for key, value in lines:
@@ -254,7 +269,8 @@ class Writer:
             rows: list[Any] = [[units.text(depth, "m"), units.text(inclination, "rad"), units.text(azimuth, "rad")]
                                for depth, inclination, azimuth in stations]
             rows = self.source.spelling(("hole", "survey"), rows) if self.source else rows
-            self.lines.append(("\n".join(["survey = [", *(f"    {_value(row)}," for row in rows), "]"]), ("hole", "survey")))
+            self.lines.append(("\n".join(["survey = [", *(f"    {_value(row)}," for row in rows), "]"]),
+                               ("hole", "survey")))
         for number, section in enumerate(self.sections):
             self._head("[[hole.section]]", ("hole", "section", number))
             self._table("section", section, special.get)
@@ -297,7 +313,8 @@ class Writer:
             return None
 
         if kind == "drive" and not description.get("time_function"):
-            self._key("time_function", units.text(description.get("value", 0.0), fields.drive_unit(description.get("kind", 0), component)))
+            self._key("time_function", units.text(description.get("value", 0.0),
+                                                  fields.drive_unit(description.get("kind", 0), component)))
         self._table(kind, description, unit_of)
         for key in fields.DRIVE_PAIRS if kind == "drive" else ():
             if description.get(key):
@@ -344,7 +361,8 @@ class Writer:
             return
         self._head("[sim]", ("sim",))
         self._table("sim", self.scene.sim)
-        for name, values, known in (("run", {"static": 0, **self.scene.run}, RUN), ("results", self.scene.results, OUTPUT),
+        for name, values, known in (("run", {"static": 0, **self.scene.run}, RUN),
+                                    ("results", self.scene.results, OUTPUT),
                                     ("limits", self.scene.limits, LIMITS)):
             if values:
                 self._head(f"[{name}]", (name,))
@@ -377,7 +395,8 @@ class Writer:
 
     def _analysis(self, name: str, values: dict[str, Any]) -> None:
         self._head(f"[{name}]", (name,))
-        own = {key: value for key, value in values.items() if key not in ("excitation", "output") and not (name == "speeds" and key == "order")}
+        own = {key: value for key, value in values.items() if key not in ("excitation", "output")
+               and not (name == "speeds" and key == "order")}
         self._table(name, own, self._factor_unit(values))
         for number, one in enumerate(values.get("excitation", [])):
             self._head(f"[[{name}.excitation]]", (name, "excitation", number))
@@ -386,7 +405,8 @@ class Writer:
             for number, one in enumerate(values["order"]):
                 self._head("[[speeds.order]]", (name, "order", number))
                 self._key("order", one["order"])
-                self._excitation({"kind": enums.EXCITATION_ECCENTRICITY, **{key: value for key, value in one.items() if key != "order"}})
+                self._excitation({"kind": enums.EXCITATION_ECCENTRICITY,
+                                  **{key: value for key, value in one.items() if key != "order"}})
         for number, one in enumerate(values.get("output", [])):
             self._head(f"[[{name}.output]]", (name, "output", number), one["name"])
             self._quantity(one.get("place"), one["quantity"])

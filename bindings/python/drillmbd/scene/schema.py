@@ -54,8 +54,10 @@ def _segment() -> dict[str, Any]:
     return made
 
 
-_VISCOMETER = {"type": "object", "additionalProperties": {"type": "number"}, "description": "readings [degree] of a Fann 35 viscometer (R1, "
-               "B1, F1) by speed [rpm], as {600 = 52, 300 = 34}, in place of consistency, flow_exponent and yield_stress"}
+_VISCOMETER = {"type": "object", "additionalProperties": {"type": "number"},
+               "description": "readings [degree] of a Fann 35 viscometer (R1, "
+               "B1, F1) by speed [rpm], as {600 = 52, 300 = 34}, in place of consistency, flow_exponent and "
+               "yield_stress"}
 
 
 def schema() -> dict[str, Any]:
@@ -63,28 +65,42 @@ def schema() -> dict[str, Any]:
     row = {"type": "array", "minItems": 3, "maxItems": 3, "items": _QUANTITY}
     pipes = _object({key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"},
                     count={"type": "integer", "minimum": 1},
-                    pipe={**_NAME, "description": "name of a catalogue, for the keys that are left out: drillmbd catalogue"})
+                    pipe={**_NAME,
+                          "description": "name of a catalogue, for the keys that are left out: drillmbd catalogue"})
     properties: dict[str, Any] = {
         "title": {"type": "string"},
-        "catalogue": {**_many(_NAME), "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"},
+        "catalogue": {**_many(_NAME),
+                      "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"},
         "environment": _object(fields_of(DEFINITIONS["environment"]), viscometer=_VISCOMETER),
-        "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT}, section=_many(_object(fields_of(DEFINITIONS["section"]))),
-                        friction_table={**_TABLE, "description": "speed of sliding [m/s] and friction coefficient, 2 to 8 pairs, in the place "
+        "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT},
+                        section=_many(_object(fields_of(DEFINITIONS["section"]))),
+                        friction_table={**_TABLE,
+                                        "description": "speed of sliding [m/s] and friction coefficient, 2 to 8 pairs, "
+                                                       "in the place "
                                         "of mu_static, mu_dynamic and stribeck_speed"},
                         survey={"type": "array", "minItems": 2, "items": row},
-                        survey_columns={"type": "array", "items": _NAME, "description": "heads of the columns of survey or of survey_file "
-                                        "in their order, where it has none: depth [m], inclination [deg] or dip [deg], azimuth [deg]"},
-                        survey_file={"type": "string", "description": "CSV, text with blanks, LAS 2.0 or Excel, with heads: depth [m], "
-                                     "inclination [deg] (from the downward vertical) or dip [deg] (from the horizontal, up positive), "
+                        survey_columns={"type": "array", "items": _NAME,
+                                        "description": "heads of the columns of survey or of survey_file "
+                                        "in their order, where it has none: depth [m], inclination [deg] or dip [deg], "
+                                        "azimuth [deg]"},
+                        survey_file={"type": "string",
+                                     "description": "CSV, text with blanks, LAS 2.0 or Excel, with heads: depth [m], "
+                                     "inclination [deg] (from the downward vertical) or dip [deg] (from the "
+                                     "horizontal, up positive), "
                                      "azimuth [deg] (clockwise from north)"}),
         "time_function": _many(_object({}, ("segment",), name=_NAME, unit=_NAME, segment=_many(_segment()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
-        "run": _object(RUN), "results": _object(OUTPUT), "limits": _object(LIMITS, rig={**_NAME, "description": "name of a catalogue, for torque, push and pull that are left out: drillmbd catalogue"}),
+        "run": _object(RUN), "results": _object(OUTPUT),
+        "limits": _object(LIMITS,
+                          rig={**_NAME,
+                               "description": "name of a catalogue, for torque, push and pull that are left out: "
+                                              "drillmbd catalogue"}),
         "output": _many(_object(output_fields(), ("quantity",), name=_NAME))}
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
                                 **({"table": _TABLE} if kind == "spring" else {}),
-                                **({"curve": _TABLE, "gain_table": _TABLE, "motor": _object(fields_of(Motor), table=_TABLE)}
+                                **({"curve": _TABLE, "gain_table": _TABLE,
+                                    "motor": _object(fields_of(Motor), table=_TABLE)}
                                    if kind == "drive" else {})}
         known = event_fields() if kind == "event" else fields_of(DEFINITIONS[kind])
         properties[kind] = _many(_object(known, **more))
@@ -103,10 +119,12 @@ def schema() -> dict[str, Any]:
 def _asked(kind: str) -> dict[str, Any]:
     out = output_fields()
     if kind == "response":
-        return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))), "output": _many(_object(out, ("quantity",), name=_NAME))}
+        return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))),
+                "output": _many(_object(out, ("quantity",), name=_NAME))}
     if kind == "speeds":
         order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["response excitation"])}
-        return {"order": _many(_object(order)), "output": _many(_object(out, ("quantity", "limit"), name=_NAME, limit=_QUANTITY))}
+        return {"order": _many(_object(order)),
+                "output": _many(_object(out, ("quantity", "limit"), name=_NAME, limit=_QUANTITY))}
     return {}
 
 

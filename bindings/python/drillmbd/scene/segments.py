@@ -9,12 +9,14 @@ from .. import enums
 
 def by_numbers(segment: dict[str, Any]) -> bool:
     """Whether a segment is given by numbers alone: not by a function of the caller, nor by another time function."""
-    return segment.get("function") is None and segment.get("kind") not in (enums.SEGMENT_CALLBACK, enums.SEGMENT_PER_REVOLUTION)
+    return (segment.get("function") is None and segment.get("kind") not in (enums.SEGMENT_CALLBACK,
+                                                                            enums.SEGMENT_PER_REVOLUTION))
 
 
 def value_at(time: float, segment: dict[str, Any]) -> float:
     """The value of one constant, step or harmonic segment, by its described fields."""
-    kind, h0, h1 = segment.get("kind", enums.SEGMENT_CONSTANT), float(segment.get("h0", 0.0)), float(segment.get("h1", 0.0))
+    kind, h0, h1 = segment.get("kind",
+                               enums.SEGMENT_CONSTANT), float(segment.get("h0", 0.0)), float(segment.get("h1", 0.0))
     if kind == enums.SEGMENT_HARMONIC:
         return h0 + h1 * math.sin(segment.get("omega", 0.0) * time + segment.get("phase", 0.0))
     if kind != enums.SEGMENT_STEP:

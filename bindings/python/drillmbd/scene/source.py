@@ -1,4 +1,5 @@
-"""The text that a scene was read from: its values as they were written, and its comments by the keys beside which they stand."""
+"""The text that a scene was read from: its values as they were written, and its comments by the keys beside which they
+stand."""
 from __future__ import annotations
 
 import re
@@ -47,7 +48,8 @@ class Source:
             return MISSING
         for part in path:
             if isinstance(part, int):
-                found = found[part] if isinstance(found, list) and part < len(found) else found if isinstance(found, dict) and part == 0 else MISSING
+                found = (found[part] if isinstance(found, list) and part < len(found) else
+                         found if isinstance(found, dict) and part == 0 else MISSING)
             else:
                 found = found.get(part, MISSING) if isinstance(found, dict) else MISSING
         return found
@@ -123,9 +125,9 @@ def replaced(content: Any, path: Path = ()) -> Iterable[Comment]:
 
 
 def decorated(lines: list[tuple[str, Path | None]], source: Source) -> list[str]:
-    """The lines of a saved file, each with the path that it has in the source, with the comments of the source beside them. A
-    comment of a key that is not saved stands before its table; one of a table that is not saved before the first line of the part that is
-    in it; else at the top."""
+    """The lines of a saved file, each with the path that it has in the source, with the comments of the source beside
+    them. A comment of a key that is not saved stands before its table; one of a table that is not saved before the
+    first line of the part that is in it; else at the top."""
     places: dict[Path, int] = {}
     for number, (_, path) in enumerate(lines):
         if path is not None:

@@ -1,4 +1,5 @@
-"""[[sub]] of a scene file: a body in the middle of a string, and the section of pipes that continues the string after it.
+"""[[sub]] of a scene file: a body in the middle of a string, and the section of pipes that continues the string after
+it.
 A model has them as the parts that they are made of, and so has a file that is written from it."""
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ PLACED = {"body": ("position", "rotation", "velocity", "attach", "string"), "joi
 def known_fields(table: str) -> dict[str, Field]:
     """The keys of one of the tables of a sub."""
     kind = TABLES[table]
-    found = {key: field for key, field in fields_of(DEFINITIONS[kind]).items() if key not in (*PLACED.get(kind, ()), "name")}
+    found = {key: field for key, field in fields_of(DEFINITIONS[kind]).items()
+             if key not in (*PLACED.get(kind, ()), "name")}
     return {key: field for key, field in found.items() if kind != "string" or key == "end_free"}
 
 
@@ -62,7 +64,8 @@ class Subs:
         parts = {}
         for key in TABLES:
             given = loader.table(path + (key,))
-            parts[key] = loader.read(path + (key,), given, known_fields(key), ("name", "pipes") if key == "section" else ("name",))
+            parts[key] = loader.read(path + (key,), given, known_fields(key), ("name", "pipes") if key == "section"
+                                     else ("name",))
             loader.own_name(path + (key,), given, parts[key])
             names[key] = str(given.get("name") or names[key])
         made = None
@@ -76,7 +79,8 @@ class Subs:
         try:
             return self.loader.model.add_sub(
                 values.get("string"), values.get("length", 0.0), body=BodyDef(**parts["body"]),
-                before=JointDef(**parts["before"]), after=JointDef(**parts["after"]), section=StringDef(**parts["section"]))
+                before=JointDef(**parts["before"]), after=JointDef(**parts["after"]),
+                section=StringDef(**parts["section"]))
         except (Error, ValueError) as error:
             name = getattr(error, "field", None) or ""
             where = next((path + (key, name) for key in TABLES if name in parts[key]), path)

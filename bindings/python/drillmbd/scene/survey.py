@@ -1,5 +1,5 @@
-"""The survey of a hole: measured depth, inclination from the downward vertical or dip from the horizontal (up positive), and
-azimuth clockwise from north, in the scene file or in a file of its own."""
+"""The survey of a hole: measured depth, inclination from the downward vertical or dip from the horizontal (up
+positive), and azimuth clockwise from north, in the scene file or in a file of its own."""
 from __future__ import annotations
 
 import math
@@ -13,19 +13,29 @@ from .lines import Path
 from .problems import Problems
 
 COLUMNS = (
-    Column("depth", "m", ("md", "m d", "depth", "dept", "measured depth", "meas depth", "measdepth", "depth md", "md depth", "hole depth",
-                          "along hole depth", "ahd", "ah depth", "measured depth md", "station depth", "survey depth", "depth measured",
+    Column("depth", "m", ("md", "m d", "depth", "dept", "measured depth", "meas depth", "measdepth", "depth md",
+                          "md depth", "hole depth",
+                          "along hole depth", "ahd", "ah depth", "measured depth md", "station depth", "survey depth",
+                          "depth measured",
                           "孔深", "井深", "测深", "斜深", "深度")),
-    Column("inclination", "rad", ("inc", "incl", "inclination", "inclination angle", "incl angle", "inc angle", "deviation", "dev", "devi", "drift",
-                                  "drift angle", "zenith", "zenith angle", "hole inclination", "hole angle", "hole deviation", "hdev", "sdev", "inclinaison", "neigung", "井斜", "顶角",
+    Column("inclination", "rad", ("inc", "incl", "inclination", "inclination angle", "incl angle", "inc angle",
+                                  "deviation", "dev", "devi", "drift",
+                                  "drift angle", "zenith", "zenith angle", "hole inclination", "hole angle",
+                                  "hole deviation", "hdev", "sdev", "inclinaison", "neigung", "井斜", "顶角",
                                   "天顶角"), "deg", False),
-    Column("dip", "rad", ("dip", "dip angle", "pitch", "pitch angle", "elevation", "elevation angle", "倾角", "俯仰角", "仰角"), "deg", False),
-    Column("depression", "rad", ("depression", "depression angle", "angle of depression", "plunge", "dip down", "dip down positive", "dip positive down",
+    Column("dip", "rad", ("dip", "dip angle", "pitch", "pitch angle", "elevation", "elevation angle", "倾角", "俯仰角",
+                          "仰角"), "deg", False),
+    Column("depression", "rad", ("depression", "depression angle", "angle of depression", "plunge", "dip down",
+                                 "dip down positive", "dip positive down",
                                  "俯角", "下倾角"), "deg", False),
-    Column("azimuth", "rad", ("azi", "azim", "azimuth", "az", "azimuth angle", "azi angle", "azm", "azimuth grid", "grid azimuth", "azimuth true", "true azimuth",
-                              "azi grid", "azi true", "azimuth mag", "azi mag", "azi magn", "azimuth magn", "azimuth magnetic", "azimuth magnetic north", "hazi", "haz", "azin", "azmt", "magnetic azimuth", "hole azimuth", "bearing", "brg", "direction",
+    Column("azimuth", "rad", ("azi", "azim", "azimuth", "az", "azimuth angle", "azi angle", "azm", "azimuth grid",
+                              "grid azimuth", "azimuth true", "true azimuth",
+                              "azi grid", "azi true", "azimuth mag", "azi mag", "azi magn", "azimuth magn",
+                              "azimuth magnetic", "azimuth magnetic north", "hazi", "haz", "azin", "azmt",
+                              "magnetic azimuth", "hole azimuth", "bearing", "brg", "direction",
                               "hole direction", "azimut", "方位"), "deg", True, True),
-    Column("hole", "", ("well", "well name", "well id", "hole", "hole id", "holeid", "bhid", "borehole", "wellbore", "uwi", "孔号", "钻孔", "井号"), "",
+    Column("hole", "", ("well", "well name", "well id", "hole", "hole id", "holeid", "bhid", "borehole", "wellbore",
+                        "uwi", "孔号", "钻孔", "井号"), "",
            False))
 
 VERTICAL = 1e-6      # [rad] no azimuth within this of the vertical
@@ -60,7 +70,8 @@ class _Faults(Exception):
 
 
 def inline(problems: Problems, path: Path, rows: Any, heads: Any) -> list[list[float]] | None:
-    """The stations of survey = [["0 m", "90 deg", "0 deg"], ...]; None where something is wrong. heads: survey_columns."""
+    """The stations of survey = [["0 m", "90 deg", "0 deg"], ...]; None where something is wrong. heads:
+    survey_columns."""
     if not isinstance(rows, list) or len(rows) < 2:
         problems.add(path, rows, 'must be an array of at least two rows, as [["0 m", "90 deg", "0 deg"], ...]')
         return None
@@ -93,7 +104,8 @@ def _given(problems: Problems, path: Path, heads: Any) -> list[str] | None:
     if heads is None:
         return None
     if not isinstance(heads, list) or not all(isinstance(one, str) for one in heads):
-        problems.add(path[:-1] + ("survey_columns",), heads, 'must be an array of heads, as ["depth", "dip", "azimuth"]')
+        problems.add(path[:-1] + ("survey_columns",), heads,
+                     'must be an array of heads, as ["depth", "dip", "azimuth"]')
         return None
     known = [next((one.key for one in COLUMNS if columns.names_column(head, one)), "") for head in heads]
     if not {"depth", "azimuth"} <= set(known) or not {"inclination", "dip"} & set(known):
@@ -112,7 +124,8 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
     try:
         found = columns.read(table_file.read(folder / name), COLUMNS, heads)
     except (OSError, ImportError, ValueError, KeyError, EOFError) as error:
-        problems.add(path, name, f"could not be read: {getattr(error, 'strerror', None) or error}" if not isinstance(error, table_file.TableError) else str(error))
+        problems.add(path, name, f"could not be read: {getattr(error, 'strerror', None) or error}"
+                     if not isinstance(error, table_file.TableError) else str(error))
         return None
     if "depression" in found.heads and not {"dip", "inclination"} & set(found.heads):
         _turn_down(found)
@@ -124,10 +137,13 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
             problems.add(path, name, one)
         return None
     key = "dip" if by_dip else "inclination"
-    odd = next((one for line, cells in found.rows for one in [cells["azimuth"]] if abs(one.value or 0.0) > MANY_TURNS), None)
+    odd = next((one for line, cells in found.rows for one in [cells["azimuth"]] if abs(one.value or 0.0) > MANY_TURNS),
+               None)
     if odd is not None and odd.value is not None:
-        found.remarks.append(f"the azimuth {odd.text} is more than two turns; {math.degrees(odd.value) % 360.0:.6g} deg is read")
-    stations = [Station(f"line {line}", cells["depth"], cells[key], cells["azimuth"], cells["hole"].text if "hole" in cells else "")
+        found.remarks.append(f"the azimuth {odd.text} is more than two turns; {math.degrees(odd.value) % 360.0:.6g} "
+                             "deg is read")
+    stations = [Station(f"line {line}", cells["depth"], cells[key], cells["azimuth"],
+                        cells["hole"].text if "hole" in cells else "")
                 for line, cells in found.rows]
     survey = Survey([], by_dip, found.heads, found.unit, found.remarks)
     if "dip" in found.heads and not by_dip:
@@ -146,7 +162,8 @@ def _turn_down(found: columns.Found) -> None:
 
 
 # ---- Stations --------------------------------------------------------------------------------------------------------
-def _finished(problems: Problems, path: Path, name: Any, stations: list[Station], survey: Survey) -> list[list[float]] | None:
+def _finished(problems: Problems, path: Path, name: Any, stations: list[Station],
+              survey: Survey) -> list[list[float]] | None:
     """The rows that the library takes, after all checks."""
     before = len(problems.found)
     stations = _without_duplicates(problems, path, name, stations, survey)
@@ -161,7 +178,8 @@ def _finished(problems: Problems, path: Path, name: Any, stations: list[Station]
     if len(problems.found) > before:
         return None
     for one in stations:
-        survey.rows.append([_value(one.depth), _inclination(one, survey), math.fmod(_value(one.azimuth), 2.0 * math.pi)])
+        survey.rows.append([_value(one.depth), _inclination(one, survey),
+                            math.fmod(_value(one.azimuth), 2.0 * math.pi)])
     for text in survey.remarks + suspicions(survey):
         problems.remark(path, name, text)
     return survey.rows
@@ -175,7 +193,8 @@ def _inclination(one: Station, survey: Survey) -> float:
     return 0.5 * math.pi + _value(one.angle) if survey.by_dip else _value(one.angle)
 
 
-def _without_duplicates(problems: Problems, path: Path, name: Any, stations: list[Station], survey: Survey) -> list[Station]:
+def _without_duplicates(problems: Problems, path: Path, name: Any, stations: list[Station],
+                        survey: Survey) -> list[Station]:
     """Equal stations that follow each other are one; two directions at one depth are refused."""
     kept: list[Station] = []
     for one in stations:
@@ -185,7 +204,9 @@ def _without_duplicates(problems: Problems, path: Path, name: Any, stations: lis
         elif (one.angle.value, one.azimuth.value) == (last.angle.value, last.azimuth.value):
             survey.remarks.append(f"{one.where} repeats {last.where} ({one.depth.text}): it is left out")
         else:
-            problems.add(path, name, f"{one.where}: measured depth {one.depth.text} appears twice, with other angles in {last.where}; "
+            problems.add(path, name,
+                         f"{one.where}: measured depth {one.depth.text} appears twice, with other angles in "
+                         f"{last.where}; "
                                      "depths must increase")
     return kept
 
@@ -193,18 +214,23 @@ def _without_duplicates(problems: Problems, path: Path, name: Any, stations: lis
 def _check_holes(problems: Problems, path: Path, name: Any, stations: list[Station]) -> None:
     holes = list(dict.fromkeys(one.hole for one in stations if one.hole))
     if len(holes) > 1:
-        problems.add(path, name, f"has stations of {len(holes)} holes ({', '.join(holes)[:60]}); keep those of one in the file")
+        problems.add(path, name,
+                     f"has stations of {len(holes)} holes ({', '.join(holes)[:60]}); keep those of one in the file")
 
 
 def _check_order(problems: Problems, path: Path, name: Any, stations: list[Station]) -> None:
     depths = [_value(one.depth) for one in stations]
     if len(depths) > 2 and all(b < a for a, b in zip(depths, depths[1:])):
-        problems.add(path, name, f"{stations[1].where}: measured depth {stations[1].depth.text} comes after {stations[0].depth.text} "
+        problems.add(path, name,
+                     f"{stations[1].where}: measured depth {stations[1].depth.text} comes after "
+                     f"{stations[0].depth.text} "
                                  f"({stations[0].where}): the stations are in reverse order; depths must increase")
         return
     for a, b in zip(stations, stations[1:]):
         if _value(b.depth) < _value(a.depth):
-            problems.add(path, name, f"{b.where}: measured depth {b.depth.text} comes after {a.depth.text} ({a.where}); depths must increase, "
+            problems.add(path, name,
+                         f"{b.where}: measured depth {b.depth.text} comes after {a.depth.text} ({a.where}); depths "
+                         "must increase, "
                                      "so sort the stations")
 
 
@@ -215,9 +241,11 @@ def _fill_azimuth(problems: Problems, path: Path, name: Any, stations: list[Stat
             continue
         if abs(math.sin(_inclination(one, survey))) > VERTICAL:
             kind = "dip" if survey.by_dip else "inclination"
-            problems.add(path, name, f"{one.where}: the azimuth is empty at {kind} {one.angle.text}; only a vertical hole has none")
+            problems.add(path, name,
+                         f"{one.where}: the azimuth is empty at {kind} {one.angle.text}; only a vertical hole has none")
             continue
-        known = next((other.azimuth for other in stations[number:] if other.azimuth.value is not None), Cell(0.0, "0 deg"))
+        known = next((other.azimuth for other in stations[number:] if other.azimuth.value is not None),
+                     Cell(0.0, "0 deg"))
         one.azimuth = known
 
 
@@ -243,12 +271,15 @@ def _check_bends(problems: Problems, path: Path, name: Any, stations: list[Stati
     for a, b in zip(stations, stations[1:]):
         angle = dogleg(row(a), row(b)) * (_value(b.depth) - _value(a.depth))
         if angle > MOST_BEND:
-            problems.add(path, name, f"{b.where}: the hole turns by {math.degrees(angle):.0f} deg from {a.where}, at most "
-                                     f"{math.degrees(MOST_BEND):.0f} deg fit between two stations; is a sign or an azimuth wrong?")
+            problems.add(path, name,
+                         f"{b.where}: the hole turns by {math.degrees(angle):.0f} deg from {a.where}, at most "
+                                     f"{math.degrees(MOST_BEND):.0f} deg fit between two stations; is a sign or an "
+                                     "azimuth wrong?")
 
 
 def _missing_hint(cell: Cell) -> str:
-    return "; this is a usual sign of a missing value" if cell.number in (-999.25, -999.0, -9999.0, -99999.0, -999.9) else ""
+    return ("; this is a usual sign of a missing value" if cell.number in (-999.25, -999.0, -9999.0, -99999.0, -999.9)
+            else "")
 
 
 # ---- Suspicions ------------------------------------------------------------------------------------------------------
@@ -257,18 +288,23 @@ def suspicions(survey: Survey) -> list[str]:
     found = []
     rows = survey.rows
     if rows[0][0] > 0.0:
-        found.append(f"begins at {rows[0][0]:g} m (tie-in): above it the hole is straight, in the direction of the first station")
+        found.append(f"begins at {rows[0][0]:g} m (tie-in): above it the hole is straight, in the direction of the "
+                     "first station")
     if _radians_as_degrees(survey):
-        found.append("all angles lie within 2 pi but are read as degrees; are they radians? Then the heads must say [rad]")
+        found.append("all angles lie within 2 pi but are read as degrees; are they radians? Then the heads must say "
+                     "[rad]")
     spacing = sorted(b[0] - a[0] for a, b in zip(rows, rows[1:]))
     if survey.unit.get("depth") == "m" and 85.0 < spacing[len(spacing) // 2] < 100.0:
-        found.append(f"stations are {spacing[len(spacing) // 2]:.3g} m apart, as stands of pipes are in feet; are the depths feet? Then the head must "
+        found.append(f"stations are {spacing[len(spacing) // 2]:.3g} m apart, as stands of pipes are in feet; are the "
+                     "depths feet? Then the head must "
                      "say [ft]")
     sharp = [(dogleg(a, b), a, b) for a, b in zip(rows, rows[1:]) if dogleg(a, b) > MANY_DEGREES]
     if sharp:
         worst = max(sharp)
-        found.append(f"bends by {math.degrees(worst[0]) * 30.0:.3g} deg/30 m between {worst[1][0]:g} m and {worst[2][0]:g} m"
-                     + (f", and above 30 deg/30 m in {len(sharp)} intervals" if len(sharp) > 1 else "") + "; is the survey right?")
+        found.append(f"bends by {math.degrees(worst[0]) * 30.0:.3g} deg/30 m between {worst[1][0]:g} m and "
+                     f"{worst[2][0]:g} m"
+                     + (f", and above 30 deg/30 m in {len(sharp)} intervals" if len(sharp) > 1 else "")
+                     + "; is the survey right?")
     return found
 
 
@@ -280,7 +316,8 @@ def _radians_as_degrees(survey: Survey) -> bool:
     most = 0.5 * math.pi if survey.by_dip else math.pi
     if max(angles) > most or max(around) > 2.0 * math.pi or survey.rows[-1][0] - survey.rows[0][0] < 10.0:
         return False
-    return max(angles) > 0.3 and any(abs(value - round(value)) > 1e-6 for value in angles) and (not survey.by_dip or max(around) > 3.2)
+    return max(angles) > 0.3 and any(abs(value - round(value)) > 1e-6
+                                     for value in angles) and (not survey.by_dip or max(around) > 3.2)
 
 
 def dogleg(a: list[float], b: list[float]) -> float:

@@ -1,4 +1,5 @@
-"""Tables of files as they come: CSV with any separator, text with blanks, LAS 2.0, Excel. Rows of cells with their lines."""
+"""Tables of files as they come: CSV with any separator, text with blanks, LAS 2.0, Excel. Rows of cells with their
+lines."""
 from __future__ import annotations
 
 import csv
@@ -106,7 +107,8 @@ def _by_blanks(line: str) -> bool:
 def _split(line: str, separator: str) -> list[str]:
     if separator:
         try:
-            return [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True), [])]
+            return [cell.strip()
+                    for cell in next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True), [])]
         except csv.Error as error:
             raise TableError(f"has a line that is no row of a table ({error}): {line[:40]}") from error
     wide = re.split(r"\s{2,}", line.strip())
@@ -177,14 +179,16 @@ def _excel(path: pathlib.Path) -> Table:
     for sheet in book.worksheets:
         table = Table(separator=";")
         for number, values in enumerate(sheet.iter_rows(values_only=True), 1):
-            cells = ["" if value is None else repr(value) if isinstance(value, float) else str(value).strip() for value in values]
+            cells = ["" if value is None else repr(value) if isinstance(value, float) else str(value).strip()
+                     for value in values]
             if any(cells) and not _COMMENT.match(next(cell for cell in cells if cell)):
                 table.rows.append(Row(number, cells))
         tables.append(table)
     book.close()
     if not tables:
         raise TableError("has no sheet with cells")
-    best = max(range(len(tables)), key=lambda i: sum(sum(bool(cell) for cell in row.cells) >= 3 for row in tables[i].rows))
+    best = max(range(len(tables)), key=lambda i: sum(sum(bool(cell) for cell in row.cells) >= 3
+                                                     for row in tables[i].rows))
     _mark_formulas(excel.load_workbook(path, read_only=True).worksheets[best], tables[best])
     return tables[best]
 

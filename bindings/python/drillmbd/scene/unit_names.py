@@ -1,5 +1,6 @@
 """Names of units: those of the SI and those of the trade, with the factor to SI and the powers of metre, kilogram,
-second and radian. A line is: names, value, names of the unit that the value counts, prefixes. The first name is the usual one."""
+second and radian. A line is: names, value, names of the unit that the value counts, prefixes. The first name is the
+usual one."""
 from __future__ import annotations
 
 import functools
@@ -11,7 +12,8 @@ Powers = tuple[float, float, float, float]  # of m, kg, s, rad
 PI = Decimal("3.14159265358979323846264338327950288419716939937511")
 GRAVITY = Decimal("9.80665")  # [m/s2] standard gravity, ISO 80000-3
 
-_PREFIXES = {"n": "1e-9", "μ": "1e-6", "u": "1e-6", "m": "1e-3", "c": "1e-2", "d": "1e-1", "da": "10", "h": "1e2", "k": "1e3",
+_PREFIXES = {"n": "1e-9", "μ": "1e-6", "u": "1e-6", "m": "1e-3", "c": "1e-2", "d": "1e-1", "da": "10", "h": "1e2",
+             "k": "1e3",
              "M": "1e6", "G": "1e9", "nano": "1e-9", "micro": "1e-6", "milli": "1e-3", "centi": "1e-2", "kilo": "1e3",
              "mega": "1e6", "giga": "1e9", "千": "1e3", "兆": "1e6", "毫": "1e-3", "厘": "1e-2", "微": "1e-6"}
 _WORDS = ("nano", "micro", "milli", "centi", "kilo", "mega", "giga")
@@ -94,17 +96,22 @@ unit | 1 | |
 _TOGETHER = (("N", "kN", "daN", "MN", "mN", "kgf", "牛", "千牛"), ("m", "mm", "米"))
 _TOGETHER_BRITISH = (("lb", "lbs", "lbf", "klb", "klbf", "kip"), ("ft", "in", "kft"))
 
-REFUSED = {word: "may be a tonne (1000 kg), a short ton (907 kg, US) or a long ton (1016 kg, UK); write tonne, short_ton or "
+REFUSED = {word: "may be a tonne (1000 kg), a short ton (907 kg, US) or a long ton (1016 kg, UK); write tonne, "
+                 "short_ton or "
                  "long_ton" for word in ("ton", "tons", "kton", "tonf", "ton_force", "tonsf")}
 
 # Examples for messages, by what is wanted.
 USUAL = {"m": ("mm", "cm", "m", "in", "ft"), "N": ("N", "kN", "daN", "kgf", "tf", "lbf", "klbf"),
          "N m": ("N m", "kN m", "daN m", "kgf m", "ft lbf", "kft lbf", "in lbf"),
-         "kg/m3": ("kg/m3", "g/cm3", "sg", "ppg", "lb/ft3"), "kg/m": ("kg/m", "lb/ft", "ppf"), "kg": ("kg", "g", "t", "lb"),
-         "Pa": ("Pa", "kPa", "MPa", "GPa", "bar", "psi", "ksi", "kgf/cm2"), "rad/s": ("rpm", "r/min", "rev/s", "rad/s", "deg/s"),
-         "m3/s": ("l/min", "l/s", "m3/h", "m3/min", "gpm", "bbl/min"), "m/s": ("m/s", "mm/s", "m/min", "m/h", "ft/min", "ft/h"),
+         "kg/m3": ("kg/m3", "g/cm3", "sg", "ppg", "lb/ft3"), "kg/m": ("kg/m", "lb/ft", "ppf"),
+         "kg": ("kg", "g", "t", "lb"),
+         "Pa": ("Pa", "kPa", "MPa", "GPa", "bar", "psi", "ksi", "kgf/cm2"),
+         "rad/s": ("rpm", "r/min", "rev/s", "rad/s", "deg/s"),
+         "m3/s": ("l/min", "l/s", "m3/h", "m3/min", "gpm", "bbl/min"),
+         "m/s": ("m/s", "mm/s", "m/min", "m/h", "ft/min", "ft/h"),
          "rad": ("deg", "rad", "gon"), "s": ("ms", "s", "min", "h"), "Hz": ("Hz", "1/s", "1/min"),
-         "rad/m": ("deg/30 m", "deg/100 ft", "rad/m"), "N/m": ("N/m", "kN/m", "N/mm", "lbf/in"), "Pa s": ("Pa s", "mPa s", "cP"),
+         "rad/m": ("deg/30 m", "deg/100 ft", "rad/m"), "N/m": ("N/m", "kN/m", "N/mm", "lbf/in"),
+         "Pa s": ("Pa s", "mPa s", "cP"),
          "m3": ("m3", "l", "gal", "bbl"), "m2": ("mm2", "cm2", "m2", "in2")}
 
 
@@ -162,7 +169,8 @@ def tables() -> tuple[dict[str, Unit], dict[str, dict[str, tuple[Unit, str]]]]:
                 if prefix + name not in exact:
                     unit = Unit(Decimal(_PREFIXES[prefix]) * base.factor, base.powers)
                     exact[prefix + name] = unit
-                    loose.setdefault((prefix + name).casefold(), {})[prefix + name] = unit, prefix if prefix in rare.split() else ""
+                    loose.setdefault((prefix + name).casefold(),
+                                     {})[prefix + name] = unit, prefix if prefix in rare.split() else ""
     _add_together(exact, loose)
     return exact, loose
 

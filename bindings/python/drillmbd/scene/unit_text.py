@@ -14,9 +14,12 @@ _TOKEN = re.compile(r"""\s*(?:(?P<number>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)
      (?P<power>(?:\s*(?:\^|\*\*)\s*\(?\s*[-+]?\d+(?:\.\d+)?\s*\)?|-?\d+(?:\.\d+)?)?)
     |(?P<sign>[*·.×⋅∙・/÷()-]))""", re.X)
 _PHRASES = (("metric tonnes", "tonne"), ("metric tonne", "tonne"), ("metric tons", "tonne"), ("metric ton", "tonne"),
-            ("short tons", "short_ton"), ("short ton", "short_ton"), ("long tons", "long_ton"), ("long ton", "long_ton"),
-            ("u.s. gal", "USgal"), ("us gal", "USgal"), ("uk gal", "UKgal"), ("imp gal", "UKgal"), ("imp. gal", "UKgal"),
-            ("us ft", "usft"), ("survey feet", "usft"), ("specific gravity", "sg"), ("in.", "in "), ("ft.", "ft "), ("lb.", "lb "),
+            ("short tons", "short_ton"), ("short ton", "short_ton"), ("long tons", "long_ton"),
+            ("long ton", "long_ton"),
+            ("u.s. gal", "USgal"), ("us gal", "USgal"), ("uk gal", "UKgal"), ("imp gal", "UKgal"),
+            ("imp. gal", "UKgal"),
+            ("us ft", "usft"), ("survey feet", "usft"), ("specific gravity", "sg"), ("in.", "in "), ("ft.", "ft "),
+            ("lb.", "lb "),
             ("lbs.", "lbs "))
 MOST = 60  # characters of a unit
 
@@ -29,7 +32,8 @@ def plain(text: str) -> str:
     """The same text in signs of the parser: full-width signs, primes, degrees, powers."""
     text = text.replace("º", "°").replace("˚", "°").replace("’", "'").replace("”", '"').replace("“", '"')
     text = unicodedata.normalize("NFKC", text).replace("′′", '"').replace("′", "'").replace("''", '"')
-    return text.replace("−", "-").replace("–", "-").replace("µ", "μ").replace("每", "/").replace("℃", "°C").replace("⁄", "/")
+    return text.replace("−", "-").replace("–", "-").replace("µ", "μ").replace("每",
+                                                                              "/").replace("℃", "°C").replace("⁄", "/")
 
 
 def _without_dots(word: str) -> str:
@@ -44,7 +48,8 @@ def _without_dots(word: str) -> str:
 def _prepared(text: str) -> str:
     text = " ".join(_without_dots(word) for word in plain(text).split())
     for phrase, word in _PHRASES:
-        text = re.sub(r"(?<![^\W\d_])" + re.escape(phrase) + ("" if phrase.endswith(".") else r"(?![^\W\d_])"), word, text, flags=re.I)
+        text = re.sub(r"(?<![^\W\d_])" + re.escape(phrase) + ("" if phrase.endswith(".") else r"(?![^\W\d_])"), word,
+                      text, flags=re.I)
     return re.sub(r"(?<![^\W\d_])per(?![^\W\d_])", "/", text, flags=re.I).strip().rstrip(".").strip()
 
 
@@ -100,7 +105,8 @@ def _of_name(text: str, name: str) -> tuple[dict[str, Unit], dict[str, Unit]]:
     if name.casefold() in REFUSED:
         raise UnknownUnit(text, f"has '{name}', which " + REFUSED[name.casefold()])
     written = {name: exact[name]} if name in exact else {}
-    others = {key: unit for key, (unit, prefix) in loose.get(name.casefold(), {}).items() if key != name and name.startswith(prefix)}
+    others = {key: unit for key, (unit, prefix) in loose.get(name.casefold(), {}).items() if key != name
+              and name.startswith(prefix)}
     if not written and not others:
         raise UnknownUnit(text, "is not a known unit")
     return written, others
@@ -118,7 +124,8 @@ def meanings(text: str) -> tuple[tuple[bool, Unit, str], ...]:
             choices.append([(True, Unit(Decimal(name), NOTHING.powers), name)])
             continue
         written, others = _of_name(text, name)
-        choices.append([(True, unit, key) for key, unit in written.items()] + [(False, unit, key) for key, unit in others.items()])
+        choices.append([(True, unit, key) for key, unit in written.items()] + [(False, unit, key)
+                                                                               for key, unit in others.items()])
     found = []
     for combination in itertools.islice(itertools.product(*choices), 200):
         unit = NOTHING

@@ -1,5 +1,6 @@
 """Quantities with units as people write them: "63.5 mm", "120 rpm", "90 deg", '9 5/8"', "20 klb". Angles count as a
-dimension where a frequency could be taken for a rotary speed. Decimal numbers keep "63.5 mm" the double next to 0.0635."""
+dimension where a frequency could be taken for a rotary speed. Decimal numbers keep "63.5 mm" the double next to
+0.0635."""
 from __future__ import annotations
 
 import difflib
@@ -38,7 +39,8 @@ def _meanings(unit: str) -> tuple[tuple[bool, Unit, str], ...]:
     try:
         return meanings(unit)
     except UnknownUnit as error:
-        raise UnitError(f"'{error.args[0]}' {error.args[1]}" if error.args[1].startswith("is") else error.args[1]) from error
+        raise UnitError(f"'{error.args[0]}' {error.args[1]}" if error.args[1].startswith("is")
+                        else error.args[1]) from error
 
 
 @functools.lru_cache(maxsize=200)
@@ -47,8 +49,8 @@ def _wanted_unit(wanted: str) -> Unit:
 
 
 def _fits(unit: Unit, wanted: Unit) -> bool:
-    """Whether a unit is of the kind of the wanted one. 1 rad counts as 1, but Hz is not rad/s, nor rpm Hz, nor is a bare
-    number an angle."""
+    """Whether a unit is of the kind of the wanted one. 1 rad counts as 1, but Hz is not rad/s, nor rpm Hz, nor is a
+    bare number an angle."""
     if unit.powers[:3] != wanted.powers[:3]:
         return False
     frequency = wanted.powers[:3] == (0.0, 0.0, -1.0)
@@ -58,7 +60,8 @@ def _fits(unit: Unit, wanted: Unit) -> bool:
 
 def _by_weight(unit: Unit, wanted: Unit) -> int:
     """1: a mass where a force is wanted, -1: the other way round, by the standard gravity; else 0."""
-    if unit.powers[1] != 1.0 or wanted.powers[1] != 1.0 or unit.powers[0] == unit.powers[2] == 0.0 == wanted.powers[0] == wanted.powers[2]:
+    if (unit.powers[1] != 1.0 or wanted.powers[1] != 1.0 or unit.powers[0] == unit.powers[2] == 0.0 == wanted.powers[0]
+        == wanted.powers[2]):
         return 0
     for sign in (1, -1):
         if (unit.powers[0] + sign, unit.powers[2] - 2 * sign) == (wanted.powers[0], wanted.powers[2]):
@@ -76,7 +79,8 @@ def fits(unit: str, wanted: str) -> bool:
 
 @functools.lru_cache(maxsize=2000)
 def _chosen(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str] | None:
-    """Factor and remark for a unit as written, by the wanted kind; None where it is of another kind. Raises UnitError."""
+    """Factor and remark for a unit as written, by the wanted kind; None where it is of another kind. Raises
+    UnitError."""
     if unit in ("", "-"):
         return (Decimal(1), "") if "-" in options else None
     wanted = [_wanted_unit(option) for option in options]
@@ -84,7 +88,8 @@ def _chosen(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str] | None:
         return _meanings("rev/min")[0][1].factor, "is taken as revolutions per minute"
     found = _meanings(unit)
     for own in (True, False):
-        factors = {one.factor: name for as_written, one, name in found if as_written is own and any(_fits(one, to) for to in wanted)}
+        factors = {one.factor: name for as_written, one, name in found if as_written is own
+                   and any(_fits(one, to) for to in wanted)}
         if len(factors) == 1:
             return next(iter(factors)), ""
         if factors:
@@ -160,9 +165,11 @@ def _factor_of(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str]:
     try:
         chosen = _chosen(unit, options)
     except UnitError as error:
-        raise UnitError(str(error) + (_neighbours(unit, options) if "is not a known unit" in str(error) else "")) from error
+        raise UnitError(str(error) + (_neighbours(unit, options) if "is not a known unit" in str(error)
+                                      else "")) from error
     if chosen is None:
-        raise UnitError((f"has the unit '{unit}'" if unit else "has no unit") + f", must be {_wanted(options)}" + _hint(unit, options))
+        raise UnitError((f"has the unit '{unit}'" if unit else "has no unit") + f", must be {_wanted(options)}"
+                        + _hint(unit, options))
     return chosen
 
 
@@ -193,7 +200,8 @@ def _hint(unit: str, options: tuple[str, ...]) -> str:
 
 
 def _usual(options: tuple[str, ...]) -> list[str]:
-    return list(dict.fromkeys(name for option in options for name in USUAL.get(option, () if option == "-" else (option,))))
+    return list(dict.fromkeys(name for option in options
+                              for name in USUAL.get(option, () if option == "-" else (option,))))
 
 
 def _neighbours(unit: str, options: tuple[str, ...]) -> str:
@@ -205,7 +213,8 @@ def _neighbours(unit: str, options: tuple[str, ...]) -> str:
     close = dict.fromkeys(names[known[name]] for name in difflib.get_close_matches(unit.casefold(), known, 3, 0.6))
     meant = f"; did you mean {' or '.join(list(close)[:2])}?" if close else ""
     usual = _usual(options)
-    return meant + (f"{'' if meant else ';'} units of this quantity are {', '.join(usual)}" if usual else "; must be a number without unit")
+    return meant + (f"{'' if meant else ';'} units of this quantity are {', '.join(usual)}" if usual
+                    else "; must be a number without unit")
 
 
 def _wanted(options: tuple[str, ...]) -> str:
@@ -213,7 +222,8 @@ def _wanted(options: tuple[str, ...]) -> str:
                 "rad": "an angle, as \"90 deg\"", "s": "a time, as \"10 ms\"", "N": "a force, as \"2 kN\"",
                 "m/s": "a speed, as \"10 mm/s\"", "kg": "a mass, as \"5 kg\"", "Hz": "a frequency, as \"5 Hz\"",
                 "N m": "a torque, as \"3 kN m\"", "Pa": "a pressure or stress, as \"500 MPa\"",
-                "kg/m3": "a density, as \"1200 kg/m3\"", "m3/s": "a flow, as \"500 l/min\"", "kg/m": "a mass per length, as \"20 kg/m\"",
+                "kg/m3": "a density, as \"1200 kg/m3\"", "m3/s": "a flow, as \"500 l/min\"",
+                "kg/m": "a mass per length, as \"20 kg/m\"",
                 "rad/m": "a curvature, as \"3 deg/30 m\""}
     return " or ".join(dict.fromkeys(examples.get(one, f"a quantity in {one}") for one in options))
 

@@ -40,7 +40,8 @@ MOST_POINTS = 4000  #: of a field or a process: the covariance is a full matrix
 SETTINGS = {
     "seed": Field("seed", "integer", about="of the study; default 1"),
     "samples": Field("samples", "integer", about="number of samples; default 100"),
-    "replicates": Field("replicates", "integer", about="independent designs that the samples of latin-hypercube and sobol are "
+    "replicates": Field("replicates", "integer",
+                        about="independent designs that the samples of latin-hypercube and sobol are "
                         "divided into, for the interval; default 10"),
     "confidence": Field("confidence", "quantity", "-", about="of intervals; default 0.95"),
     "look": Field("look", "quantity", "s", about="between looks at the run; default: [results] interval, or each step")}
@@ -77,7 +78,8 @@ class RandomField:
     spacing: float = 0.0  #: [m] between sections of a field along the hole
     modes: int = 0        #: of Karhunen and Loeve that are kept; 0: all
     relative: bool = False
-    ends: tuple[float, float] = (0.0, 0.0)  #: [m] depths between which a field along the hole has its sections; it goes on as at its ends
+    #: [m] depths between which a field along the hole has its sections; it goes on as at its ends
+    ends: tuple[float, float] = (0.0, 0.0)
     base: tuple[float, ...] = ()  #: what the factors multiply, of each key of the hole
     units: tuple[str, ...] = ()   #: of each key
 
@@ -193,10 +195,12 @@ class Reader:
         for where, one in self.loader.tables(table, path, "correlation"):
             self._correlation(found, where, one)
         if not found.names and not self.problems.found:
-            self.problems.add(path, None, "must have something that varies: [[variability.scatter]], [[variability.field]] or "
+            self.problems.add(path, None,
+                              "must have something that varies: [[variability.scatter]], [[variability.field]] or "
                                           "[[variability.process]]")
         if found.question in ("run", "auto") and "end" not in self.loader.table(("run",)):
-            self.problems.add(path, None, "needs [run] end, as end = \"40 s\"; or question = \"static\" or \"torque-drag\"")
+            self.problems.add(path, None,
+                              "needs [run] end, as end = \"40 s\"; or question = \"static\" or \"torque-drag\"")
         if found.correlations and not self.problems.found:
             self._definite(found)
         return found
@@ -222,7 +226,8 @@ class Reader:
         value = table.get(key, default)
         if not isinstance(value, str) or value not in known:
             self.problems.add(path + (key,) if key in table else path, value if key in table else None,
-                              ("must be one of the words" if key in table else f"must have a {key}") + meant(str(value), known))
+                              ("must be one of the words" if key in table else f"must have a {key}")
+                              + meant(str(value), known))
             return known[0]
         return value
 
@@ -246,11 +251,13 @@ class Reader:
             return None
         wrong = refusal(name, values)
         if wrong is not None:
-            self.problems.add(path + (wrong[0],), table[wrong[0]], f"{wrong[1]} (in {unit})" if unit != "-" else wrong[1])
+            self.problems.add(path + (wrong[0],), table[wrong[0]], f"{wrong[1]} (in {unit})" if unit != "-"
+                              else wrong[1])
             return None
         return Marginal(name, values)
 
-    def _common(self, path: Path, table: dict[str, Any], more: dict[str, Field], words: tuple[str, ...]) -> dict[str, Any]:
+    def _common(self, path: Path, table: dict[str, Any], more: dict[str, Field],
+                words: tuple[str, ...]) -> dict[str, Any]:
         """Numbers that are read by their fields; the other keys are the caller's."""
         return self.loader.read(path, table, more, ("name", "distribution", *PARAMETERS, *words))
 
@@ -268,7 +275,9 @@ class Reader:
             return None
         unit = unit_of_key(self.loader, where) if where else None
         if unit is None or where is None:
-            self.problems.add(path, key, "must be the key of a single number, as hole.mu_dynamic or string[0].pipes[0].eccentricity")
+            self.problems.add(path, key,
+                              "must be the key of a single number, as hole.mu_dynamic or "
+                              "string[0].pipes[0].eccentricity")
             return None
         holder = self._holder(where)
         if not isinstance(holder, dict):
@@ -326,7 +335,8 @@ class Reader:
                 self.problems.add(path, None, f"relative = true needs a value of {key} that is not 0")
         unit = "-" if relative else str(found[0])
         made = self.marginal(path, table, unit)
-        return None if made is None else Scatter(name, [str(key) for key in keys], unit, made, relative, tuple(one or 0.0 for one in base),
+        return None if made is None else Scatter(name, [str(key) for key in keys], unit, made, relative,
+                                                 tuple(one or 0.0 for one in base),
                                tuple(str(one) for one in found))
 
     def _base(self, key: str) -> float | None:
@@ -353,8 +363,10 @@ class Reader:
         return kernel, length
 
     def _field(self, path: Path, table: dict[str, Any], name: str) -> RandomField | None:
-        known = {"correlation_length": Field("correlation_length", "quantity", "m"), "spacing": Field("spacing", "quantity", "m"),
-                 "modes": Field("modes", "integer"), "from": Field("from", "quantity", "m"), "to": Field("to", "quantity", "m")}
+        known = {"correlation_length": Field("correlation_length", "quantity", "m"),
+                 "spacing": Field("spacing", "quantity", "m"),
+                 "modes": Field("modes", "integer"), "from": Field("from", "quantity", "m"),
+                 "to": Field("to", "quantity", "m")}
         values = self._common(path, table, known, ("key", "keys", "kernel", "relative"))
         kernel, length = self._kernel(path, table, "correlation_length", values)
         for key in ("spacing", "modes", "to"):
@@ -362,7 +374,8 @@ class Reader:
                 self.problems.add(path + (key,), table[key], "must be > 0")
         keys, relative = [table["key"]] if "key" in table else table.get("keys", []), self._relative(path, table)
         if not isinstance(keys, list) or not keys or ("key" in table) == ("keys" in table):
-            self.problems.add(path, None, 'must have a key, as key = "hole.mu_dynamic", or several of the hole, as keys = [...]')
+            self.problems.add(path, None,
+                              'must have a key, as key = "hole.mu_dynamic", or several of the hole, as keys = [...]')
             return None
         keys = self._by_number(path + ("key" if "key" in table else "keys",), keys)
         if keys is None:
@@ -377,7 +390,8 @@ class Reader:
         if unit is None:
             return None
         made = self.marginal(path, table, "-" if relative else unit)
-        return None if made is None else RandomField(name, [str(keys[0])], "-" if relative else unit, made, kernel, length, 0.0,
+        return None if made is None else RandomField(name, [str(keys[0])], "-" if relative else unit, made, kernel,
+                                                     length, 0.0,
                                                      values.get("modes", 0), relative)
 
     def _hole_field(self, path: Path, table: dict[str, Any], name: str, keys: list[Any], along: list[bool],
@@ -389,55 +403,67 @@ class Reader:
                               + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + "; several need relative = true")
             return None
         if "hole" not in self.loader.content:
-            self.problems.add(path + ("keys" if "keys" in table else "key",), keys, "vary along the hole, and the scene has no [hole]")
+            self.problems.add(path + ("keys" if "keys" in table else "key",), keys,
+                              "vary along the hole, and the scene has no [hole]")
             return None
         if self.loader.table(("hole",)).get("section"):
             self.problems.add(path, None, "the hole has [[hole.section]] already; a field makes sections of its own")
         if "to" not in values or values.get("from", 0.0) >= values["to"]:
-            self.problems.add(path + ("to",) if "to" in table else path, table.get("to"), "must have a depth `to` that is > from, as "
+            self.problems.add(path + ("to",) if "to" in table else path, table.get("to"),
+                              "must have a depth `to` that is > from, as "
                                                                                           'to = "120 m"')
             return None
         spacing = values.get("spacing", length / 3.0)
         count = (values["to"] - values.get("from", 0.0)) / spacing if spacing > 0.0 else math.inf
         if not 1.0 <= count <= MOST_POINTS:
             self.problems.add(path + ("spacing",) if "spacing" in table else path, table.get("spacing"),
-                              f"makes {count:.4g} sections from {values.get('from', 0.0):g} m to {values['to']:g} m, must be 1 .. {MOST_POINTS}")
+                              f"makes {count:.4g} sections from {values.get('from', 0.0):g} m to {values['to']:g} m, "
+                              f"must be 1 .. {MOST_POINTS}")
             return None
         units_of = [unit_of_key(self.loader, path_of_key(key)) or "-" for key in keys]
         base = [self._base(key) for key in keys] if relative else []
         unit = "-" if relative else units_of[0]
         made = self.marginal(path, table, unit)
-        return None if made is None else RandomField(name, keys, unit, made, kernel, length, spacing, values.get("modes", 0), relative,
-                                                     (values.get("from", 0.0), values["to"]), tuple(one or 0.0 for one in base),
+        return None if made is None else RandomField(name, keys, unit, made, kernel, length, spacing,
+                                                     values.get("modes", 0), relative,
+                                                     (values.get("from", 0.0), values["to"]),
+                                                     tuple(one or 0.0 for one in base),
                                                      tuple(units_of))
 
     def _field_unit(self, path: Path, key: Any) -> str | None:
-        """Of hole.survey.inclination, hole.survey.azimuth (added values), or of a number of pipes: string[0].pipes.eccentricity."""
+        """Of hole.survey.inclination, hole.survey.azimuth (added values), or of a number of pipes:
+        string[0].pipes.eccentricity."""
         if key in ("hole.survey.inclination", "hole.survey.azimuth"):
             if not {"survey", "survey_file"} & set(self.loader.table(("hole",))):
                 self.problems.add(path + ("key",), key, "needs a survey of the hole")
             return "rad"
         match = re.fullmatch(r"string\[(\d+)\]\.pipes\.(\w+)", key) if isinstance(key, str) else None
         known = fields_of(DEFINITIONS["pipes"]).get(match.group(2)) if match else None
-        if match and known and known.kind == "quantity" and not known.count and int(match.group(1)) < len(self.loader.parts("string")):
+        if (match and known and known.kind == "quantity" and not known.count
+            and int(match.group(1)) < len(self.loader.parts("string"))):
             return known.unit or "-"
-        self.problems.add(path + ("key",), key, "must be a quantity that varies along the string, as string[0].pipes.eccentricity, or "
-                          "along the hole: " + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + ", hole.survey.inclination, "
+        self.problems.add(path + ("key",), key,
+                          "must be a quantity that varies along the string, as string[0].pipes.eccentricity, or "
+                          "along the hole: " + ", ".join(f"hole.{one}" for one in ALONG_HOLE)
+                          + ", hole.survey.inclination, "
                           "hole.survey.azimuth (a value that is added to them)")
         return None
 
     def _process(self, path: Path, table: dict[str, Any], name: str) -> RandomProcess | None:
-        known = {"correlation_time": Field("correlation_time", "quantity", "s"), "spacing": Field("spacing", "quantity", "s")}
+        known = {"correlation_time": Field("correlation_time", "quantity", "s"),
+                 "spacing": Field("spacing", "quantity", "s")}
         values = self._common(path, table, known, ("time_function", "kernel", "how"))
         kernel, length = self._kernel(path, table, "correlation_time", values)
         how = self._word(path, table, "how", PROCESS, "factor")
         spacing = values.get("spacing", length / 5.0)
         if not spacing > 0.0:
-            self.problems.add(path + ("spacing",) if "spacing" in table else path, table.get("spacing"), "must have a spacing > 0 s")
+            self.problems.add(path + ("spacing",) if "spacing" in table else path, table.get("spacing"),
+                              "must have a spacing > 0 s")
         time_function = table.get("time_function")
         if not isinstance(time_function, str) or self.loader.kinds.get(time_function) != "time_function":
             known_names = [one for one, kind in self.loader.kinds.items() if kind == "time_function"]
-            self.problems.add(path + ("time_function",), time_function, "must name a time function" + meant(str(time_function), known_names))
+            self.problems.add(path + ("time_function",), time_function,
+                              "must name a time function" + meant(str(time_function), known_names))
             return None
         unit = "-" if how == "factor" else self.loader.units.get(time_function, "-")
         if spacing > 0.0 and self.loader.content.get("run"):
@@ -451,7 +477,8 @@ class Reader:
         except units.UnitError:
             return
         if end / spacing > MOST_POINTS:
-            self.problems.add(path + ("spacing",), f"{spacing:g} s", f"makes {end / spacing:.0f} rows in a run of {end:g} s, must be "
+            self.problems.add(path + ("spacing",), f"{spacing:g} s",
+                              f"makes {end / spacing:.0f} rows in a run of {end:g} s, must be "
                                                                      f"<= {MOST_POINTS}")
 
     def _correlation(self, found: Variability, path: Path, table: dict[str, Any]) -> None:
@@ -459,7 +486,8 @@ class Reader:
         pair, known = table.get("between"), [one.name for one in found.scatters]
         if not isinstance(pair, list) or len(pair) != 2 or pair[0] == pair[1] or not all(one in known for one in pair):
             wrong = next((str(one) for one in pair if one not in known), "") if isinstance(pair, list) else ""
-            self.problems.add(path + ("between",), pair, "must be two names of [[variability.scatter]]" + meant(wrong, known))
+            self.problems.add(path + ("between",), pair,
+                              "must be two names of [[variability.scatter]]" + meant(wrong, known))
             return
         if "rank" not in values or not -1.0 < values["rank"] < 1.0:
             self.problems.add(path + ("rank",), table.get("rank"), "must be a number between -1 and 1")
@@ -473,7 +501,8 @@ class Reader:
         least = float(need("numpy").linalg.eigvalsh(normal_correlation(found)).min())
         if not least > 1e-10:
             self.problems.add(("variability", "correlation", len(found.correlations) - 1), None,
-                              f"the rank correlations contradict each other: least eigenvalue {least:.3g}, must be > 1e-10")
+                              f"the rank correlations contradict each other: least eigenvalue {least:.3g}, must be > "
+                              "1e-10")
 
 
 def normal_correlation(found: Variability) -> Any:
@@ -499,21 +528,25 @@ def tables_of(found: Variability) -> list[tuple[str, dict[str, Any]]]:
     """Heads and keys as they are written."""
     settings = {key: units.text(value, "-" if known.kind == "integer" else known.unit)
                 for key, known in SETTINGS.items() for value in [found.settings.get(key)] if value is not None}
-    tables: list[tuple[str, dict[str, Any]]] = [("[variability]", {"method": found.method, "question": found.question, **settings})]
+    tables: list[tuple[str, dict[str, Any]]] = [("[variability]", {"method": found.method, "question": found.question,
+                                                                   **settings})]
     for scatter in found.scatters:
-        tables.append(("[[variability.scatter]]", {"name": scatter.name, "keys": scatter.keys, "relative": scatter.relative,
+        tables.append(("[[variability.scatter]]", {"name": scatter.name, "keys": scatter.keys,
+                                                   "relative": scatter.relative,
                                                    **_written(scatter.marginal, scatter.unit)}))
     for one in found.fields:
         more: dict[str, Any] = {"correlation_length": units.text(one.length, "m")} if one.length else {}
         more.update({"spacing": units.text(one.spacing, "m")} if one.spacing else {})
         more.update({"modes": one.modes} if one.modes else {})
         more.update({"from": units.text(one.ends[0], "m"), "to": units.text(one.ends[1], "m")} if one.ends[1] else {})
-        tables.append(("[[variability.field]]", {"name": one.name, "keys": one.keys, "relative": one.relative, "kernel": one.kernel,
+        tables.append(("[[variability.field]]", {"name": one.name, "keys": one.keys, "relative": one.relative,
+                                                 "kernel": one.kernel,
                                                  **more, **_written(one.marginal, "-" if one.relative else one.unit)}))
     for process in found.processes:
         time = {"correlation_time": units.text(process.length, "s")} if process.length else {}
         tables.append(("[[variability.process]]", {
-            "name": process.name, "time_function": process.time_function, "how": process.how, "kernel": process.kernel, **time,
+            "name": process.name, "time_function": process.time_function, "how": process.how, "kernel": process.kernel,
+            **time,
             "spacing": units.text(process.spacing, "s"), **_written(process.marginal, process.unit)}))
     tables += [("[[variability.correlation]]", {"between": [a, b], "rank": rank}) for a, b, rank in found.correlations]
     return tables
@@ -526,11 +559,15 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     common = {"name": name, "distribution": words(DISTRIBUTIONS), **{key: quantity for key in PARAMETERS}}
     relative = {"type": "boolean", "description": "numbers are factors of the values of the scene"}
     return table(SETTINGS, (), method=words(METHODS), question=words(QUESTIONS),  # type: ignore[no-any-return]
-                 scatter=many(table({}, ("distribution",), key=name, keys={"type": "array", "items": name, "minItems": 1},
+                 scatter=many(table({}, ("distribution",), key=name,
+                                    keys={"type": "array", "items": name, "minItems": 1},
                                     relative=relative, **common)),
-                 field=many(table({"modes": Field("modes", "integer")}, ("distribution",), key=name, keys={"type": "array", "items": name,
-                                  "minItems": 1}, kernel=words(KERNELS), **{"from": quantity, "to": quantity}, correlation_length=quantity, spacing=quantity, relative=relative, **common)),
-                 process=many(table({}, ("time_function", "distribution"), time_function=name, kernel=words(KERNELS), how=words(PROCESS),
+                 field=many(table({"modes": Field("modes", "integer")}, ("distribution",), key=name,
+                                  keys={"type": "array", "items": name,
+                                        "minItems": 1}, kernel=words(KERNELS), **{"from": quantity, "to": quantity},
+                                  correlation_length=quantity, spacing=quantity, relative=relative, **common)),
+                 process=many(table({}, ("time_function", "distribution"), time_function=name, kernel=words(KERNELS),
+                                    how=words(PROCESS),
                                     correlation_time=quantity, spacing=quantity, **common)),
                  correlation=many(table({}, ("between", "rank"), rank={"type": ["number", "string"]},
                                         between={"type": "array", "items": name, "minItems": 2, "maxItems": 2})))

@@ -28,13 +28,15 @@ def fit(readings: Sequence[tuple[float, float]]) -> Mud:
         if speed == above:
             raise ValueError(f"has {speed:g} rpm twice")
         if more <= reading:
-            raise ValueError(f"{more:g} degrees at {above:g} rpm must be more than {reading:g} degrees at {speed:g} rpm")
+            raise ValueError(f"{more:g} degrees at {above:g} rpm must be more than {reading:g} degrees at {speed:g} "
+                             "rpm")
     if pairs[0][0] <= 0.0 or pairs[0][1] < 0.0:
         raise ValueError("must have speeds > 0 and readings >= 0")
     rates, stresses = [SHEAR_RATE * one for one, _ in pairs], [STRESS * one for _, one in pairs]
     exponent = MOST_EXPONENT if len(pairs) == 2 else _exponent(rates, stresses)
     yield_stress, consistency = _line(rates, stresses, exponent)
-    misfit = max(abs(yield_stress + consistency * rate ** exponent - stress) for rate, stress in zip(rates, stresses)) / STRESS
+    misfit = max(abs(yield_stress + consistency * rate ** exponent - stress)
+                 for rate, stress in zip(rates, stresses)) / STRESS
     return Mud(yield_stress, consistency, exponent, misfit)
 
 

@@ -1,5 +1,5 @@
-"""Everything that a scene should warn of, in the same words in each command: values that were assumed or look wrong, pipes that were
-divided, settings for which a result is empty, and the warnings of the model check."""
+"""Everything that a scene should warn of, in the same words in each command: values that were assumed or look wrong,
+pipes that were divided, settings for which a result is empty, and the warnings of the model check."""
 from __future__ import annotations
 
 import re
@@ -13,7 +13,8 @@ from .content import Scene
 def warnings_of(scene: Scene) -> list[str]:
     """One line each."""
     with scene.new_sim() as sim:
-        return [phrase("line {line}: {place}: {text}", line=one.line, place=one.place, text=Foreign(one.text)) for one in scene.remarks] + [one.text() for one in scene.divided] + \
+        return [phrase("line {line}: {place}: {text}", line=one.line, place=one.place, text=Foreign(one.text))
+                for one in scene.remarks] + [one.text() for one in scene.divided] + \
             [phrase("not assessed: {reason}", reason=one) for one in words.trivial(scene)] + of_model(sim)
 
 
