@@ -193,8 +193,11 @@ static void lean_at(const double n[3], const double w[3], lean *l)
 }
 
 /* Rolling (eq:joints.rolling). The lowest point of the rim is at r m, with m from the normal n = R^T e_x of the plane,
- * and its velocity u + w x r m has the components along n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:
- * (t2; r s t) The first is also the derivative of p_x - r s. */
+ * and its velocity u + w x r m has these components:
+ *
+ *     along n: (n; r n_x t)        t: (t; -r x)        t2 = n x t = s x + n_x m: (t2; r s t)
+ *
+ * The first is also the derivative of p_x - r s. */
 static void rolling_rows(double r, const double R[9], const double p[3], const double V[6], dmb_joint_rows *rows)
 {
     lean l;
@@ -292,7 +295,8 @@ static double on_turn_of(double near, double angle)
 }
 
 /* With n = R^T e_y at an angle to x of b, s = cos RZ. The gradients of the angles by w are, because R is orthogonal,
- * RX: x + (n_x/s) m    RY: -m/s    RZ: t */
+ *
+ *     RX: x + (n_x/s) m        RY: -m/s        RZ: t */
 static void angle_gradients(const lean *l, dmb_joint_coordinates *c)
 {
     const double q = l->n[0] * l->inverse;

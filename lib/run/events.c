@@ -29,14 +29,14 @@ typedef struct gaps {
 typedef struct hunt {
     dmb_sim *sim;
     dmb_stepping stepping;
-    double end;      /* [s] where the call is to end */
-    double wanted;   /* [s] step length of the control */
-    gaps before;     /* at the start of the step */
-    uint64_t told;   /* events */
-    double located;  /* [s] width of the bracket */
-    double crossing; /* [s] of the first of them */
-    double from;     /* [s] start of the step */
-    int32_t equal;   /* 1: equal steps, which do not end at crossings */
+    double end;        /* [s] where the call is to end */
+    double wanted;     /* [s] step length of the control */
+    gaps before;       /* at the start of the step */
+    uint64_t reported; /* events */
+    double located;    /* [s] width of the bracket */
+    double crossing;   /* [s] of the first of them */
+    double from;       /* [s] start of the step */
+    int32_t equal;     /* 1: equal steps, which do not end at crossings */
 } hunt;
 
 static int32_t ask(dmb_sim *sim, gaps *found)
@@ -143,7 +143,7 @@ static double crossing_time(const hunt *h, uint32_t i, double after)
     return fmin(h->from + root_of(&p), to);
 }
 
-/* ---- Memory of what is held -------------------------------------------------------------------------------------- */
+/* ---- Holds: since when outputs are beyond their levels ----------------------------------------------------------- */
 
 /* At the start of a call: outputs beyond their level, and not held since a crossing, count only after they have
  * returned. */
@@ -168,7 +168,7 @@ static double hold_end(const dmb_sim *sim)
 }
 
 /* The bit of an event that crossed at `time`, which is reported. */
-static uint64_t tell_crossing(hunt *h, uint32_t i, double time)
+static uint64_t note_crossing(hunt *h, uint32_t i, double time)
 {
     h->crossing = fmin(h->crossing, time); /* of NaN and a number the number */
     return UINT64_C(1) << i;
@@ -181,32 +181,32 @@ static double beyond_until(const hunt *h, uint32_t i, double after)
     return h->equal ? crossing_time(h, i, after) : -(double)INFINITY; /* there, holds end at ends of steps */
 }
 
-static uint64_t take_held(hunt *h, uint32_t i, double after, int crossed)
+static uint64_t end_hold(hunt *h, uint32_t i, double after, int crossed)
 {
     double *since = h->sim->event_since + i;
-    uint64_t told = 0;
+    uint64_t reported = 0;
     if (crossed) *since = crossing_time(h, i, after);
     if (isfinite(*since) && beyond_until(h, i, after) >= *since + h->sim->scene->events[i].hold) {
-        told = tell_crossing(h, i, *since);
+        reported = note_crossing(h, i, *since);
         *since = (double)INFINITY;
     }
     if (!(after > 0.0)) *since = (double)NAN;
-    return told;
+    return reported;
 }
 
 /* After a step: crossings start their hold, outputs that returned end it, and outputs held long enough are reported. */
-static uint64_t take(hunt *h, const gaps *now, uint64_t crossed)
+static uint64_t reported_events(hunt *h, const gaps *now, uint64_t crossed)
 {
     dmb_sim *sim = h->sim;
-    uint64_t told = 0;
+    uint64_t reported = 0;
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
         const double after = now->value[i];
         const int here = (int)(crossed >> i & 1);
-        if (!is_either(sim, i)) told |= take_held(h, i, after, here);
-        if (is_either(sim, i) && here) told |= tell_crossing(h, i, crossing_time(h, i, after));
+        if (!is_either(sim, i)) reported |= end_hold(h, i, after, here);
+        if (is_either(sim, i) && here) reported |= note_crossing(h, i, crossing_time(h, i, after));
         if (after != 0.0) sim->event_side[i] = side_of(after);
     }
-    return told;
+    return reported;
 }
 
 /* ---- Location ---------------------------------------------------------------------------------------------------- */
@@ -359,8 +359,8 @@ static int32_t go(hunt *h)
         if (status < 0) return status;
         if (crossed) crossed = crossings(h, &now);
     }
-    h->told = take(h, &now, crossed);
-    if (!(h->told & crossed)) h->located = 0.0;
+    h->reported = reported_events(h, &now, crossed);
+    if (!(h->reported & crossed)) h->located = 0.0;
     h->before = now;
     return DMB_OK;
 }
@@ -373,13 +373,13 @@ static uint32_t ones(uint64_t bits)
 }
 
 /* "stopped at time 1.5 by event contact, off bottom" */
-static void tell(hunt *h)
+static void set_message(hunt *h)
 {
     dmb_sim *sim = h->sim;
     dmb_message names, longer;
     dmb_message_clear(&names);
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
-        if (!(h->told >> i & 1)) continue;
+        if (!(h->reported >> i & 1)) continue;
         dmb_message_set(&longer, "%s%s%s", names.text, names.text[0] ? ", " : "", sim->scene->events[i].name);
         names = longer;
     }
@@ -390,8 +390,8 @@ static int32_t report_event(const hunt *h, dmb_event_report *event)
 {
     dmb_event_report answer = dmb_event_report_default();
     if (event == NULL) return DMB_OK;
-    answer.count = ones(h->told);
-    answer.events = h->told;
+    answer.count = ones(h->reported);
+    answer.events = h->reported;
     answer.time = h->sim->clock->time;
     answer.located = h->located;
     answer.crossing = h->crossing;
@@ -434,8 +434,8 @@ static int32_t finish(hunt *h, int32_t status, dmb_event_report *event)
 {
     if (status < 0) return status;
     (void)report_event(h, event);
-    if (h->told == 0) return status;
-    tell(h);
+    if (h->reported == 0) return status;
+    set_message(h);
     return DMB_NOTE_EVENT;
 }
 
@@ -449,7 +449,7 @@ static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_s
     if (status < 0) return status;
     const double start = sim->clock->time;
     h.wanted = dmb_advance_first(sim);
-    while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.told == 0) {
+    while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.reported == 0) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
         const double from = sim->clock->time;
         status = go(&h);
@@ -480,12 +480,12 @@ static int32_t look_at_step(void *context)
     gaps now;
     const int32_t status = ask(h->sim, &now);
     if (status < 0) return status;
-    h->told = take(h, &now, crossings(h, &now));
-    h->located = h->told != 0 ? h->sim->clock->time - h->from : 0.0;
+    h->reported = reported_events(h, &now, crossings(h, &now));
+    h->located = h->reported != 0 ? h->sim->clock->time - h->from : 0.0;
     keep_past(h, &now);
     h->before = now;
     h->from = h->sim->clock->time;
-    return h->told != 0;
+    return h->reported != 0;
 }
 
 static int32_t steps_to_event(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_event_report *event,

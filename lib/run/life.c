@@ -27,7 +27,7 @@ typedef struct creation {
     dmb_message message;
 } creation;
 
-static void tell(const dmb_sim_options *options, int32_t status, const dmb_message *message)
+static void log_status(const dmb_sim_options *options, int32_t status, const dmb_message *message)
 {
     const dmb_log log = {options->log, options->log_context};
     if (status == DMB_OK) return;
@@ -39,7 +39,7 @@ static void tell(const dmb_sim_options *options, int32_t status, const dmb_messa
 static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int32_t status, const dmb_message *message)
 {
     (void)dmb_model_fail(model, status, "sim", message->text);
-    tell(options, status, message);
+    log_status(options, status, message);
     return status;
 }
 
@@ -48,7 +48,7 @@ static void report_refusal(const dmb_sim_options *given, int32_t status, const d
 {
     dmb_sim_options read;
     if (given == NULL || dmb_sim_options_read(&read, given) < 0) return;
-    tell(&read, status, message);
+    log_status(&read, status, message);
 }
 
 static int32_t check_model(const dmb_model *model, dmb_message *message)
@@ -151,7 +151,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
         return status;
     }
     dmb_model_failure_forget(model);
-    tell(&sim->options, status, &sim->message);
+    log_status(&sim->options, status, &sim->message);
     sim->magic = DMB_HANDLE_SIM; /* set last: callbacks and log may know the block */
     const int32_t asked = dmb_events_check(sim);
     if (asked < 0) {

@@ -2,12 +2,16 @@
  * reach: reaches cover the band.
  *
  *     symmetric:  the eigenvalues s^2 are real, and the signs of the factors of K - s^2 M count them: a chunk is
- * divided until an iteration finds the counted number (eq:modes.count) general:    the roots s lie in the half plane im
- * >= 0; a rectangle that an iteration from its centre does not reach to its corners is divided in two. A root s = a + i
- * b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has a (1 + k/r^2) + c = 0
- * (real part of its equation over s, eq:modes.strip) so that with K and d (M + K/high^2) -+ C positive definite no root
- * of r <= high has -+a > d: then the roots lie in a strip along the imaginary axis, which counts of w^2 divide before
- * the iteration */
+ *                 divided until an iteration finds the counted number (eq:modes.count)
+ *     general:    the roots s lie in the half plane im >= 0; a rectangle that an iteration from its centre does not
+ *                 reach to its corners is divided in two
+ *
+ * A root s = a + i b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has
+ *
+ *     a (1 + k/r^2) + c = 0        (real part of its equation over s, eq:modes.strip)
+ *
+ * so that with K and d (M + K/high^2) -+ C positive definite no root of r <= high has -+a > d. Then the roots lie in a
+ * strip along the imaginary axis, which counts of w^2 divide before the iteration. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

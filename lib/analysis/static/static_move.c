@@ -93,9 +93,12 @@ static void spin(dmb_sim *sim, uint32_t node, double angle)
 
 /* Rolling of a ring in wall contact: it moves around and along the hole instead of straight. With e n its position off
  * the axis before, d = (along, out, a e) in the hole's frame t, n, b = t x n, and k the curvature vector, it moves to
- * (e + out) r,   r = cos(a) n + sin(a) b  made orthogonal to t + along k, off the axis, which itself moved to along t +
- * along^2/2 k. `more` [m] is the difference from d, without the rounding of positions. Without it a pipe that climbs
- * around a hole penetrates the wall by the square of its displacement over 2 e. */
+ *
+ *     (e + out) r,    r = cos(a) n + sin(a) b made orthogonal to t + along k,
+ *
+ * off the axis, which itself moved to along t + along^2/2 k. `more` [m] is the difference from d, without the rounding
+ * of positions. Without it a pipe that climbs around a hole penetrates the wall by the square of its displacement over
+ * 2 e. */
 static void roll(const dmb_sim *sim, uint32_t s, const double before[3], const double d[3], double more[3])
 {
     const dmb_scene *scene = sim->scene;

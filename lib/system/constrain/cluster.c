@@ -1,15 +1,16 @@
 /* Partition and multipliers of constraint components. The only way for small mechanisms, and the one to read first;
  * large components (lib/model/mesh_constraint chooses) use sparse_cluster with the same calls.
  *
- *     call                      when                                                  result
- *     -----------------------   ---------------------------------------------------   -------------------------------
- *     dmb_clusters_prepare      once per sim                                          units of columns, no choice yet
- *     dmb_clusters_assemble     at each trial                                         rows, matrix B
- *     dmb_clusters_choose       at the start, after switches                          dependent columns
- * (eq:joints.partition) dmb_clusters_watch        after each accepted step: quality below 0.1 of its    a new choice,
- * counted best, or the number of active rows has changed dmb_clusters_factor       at each trial, after projection
- * factors of B_d, G dmb_clusters_balance      at each residual                                      multipliers
- * (eq:joints.multipliers) dmb_clusters_least_norm   once per accepted state with redundant rows eq:joints.least-norm */
+ *     call                       when                            result
+ *     ------------------------   -----------------------------   ------------------------------------------------
+ *     dmb_clusters_prepare       once per sim                    units of columns, no choice yet
+ *     dmb_clusters_assemble      at each trial                   rows, matrix B
+ *     dmb_clusters_choose        at the start, after switches    dependent columns (eq:joints.partition)
+ *     dmb_clusters_watch         after each accepted step        a new choice, counted, if the quality is below a
+ *                                                                tenth of its best or the active rows are others
+ *     dmb_clusters_factor        at each trial, projected        factors of B_d, G
+ *     dmb_clusters_balance       at each residual                multipliers (eq:joints.multipliers)
+ *     dmb_clusters_least_norm    once per accepted state         of redundant rows (eq:joints.least-norm) */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -45,7 +46,7 @@ uint32_t dmb_cluster_active_rows(const dmb_sim *sim, const dmb_cluster *cluster)
     return count;
 }
 
-/* B of a component from the blocks of its constraints. */
+/* B of a component from the blocks of its constraints; dense, because components treated in this way are small. */
 static void gather_matrix(dmb_sim *sim, const dmb_cluster *cluster)
 {
     const dmb_scene *scene = sim->scene;
@@ -73,6 +74,9 @@ int32_t dmb_clusters_assemble(dmb_evaluation *evaluation)
     return status;
 }
 
+/* Factors of the chosen columns at this trial. The choice itself stays: a step that changed it within its iteration
+ * would change the unknowns of the equations that it solves. A trial in which it is singular fails
+ * (DMB_ERR_SINGULAR). */
 int32_t dmb_clusters_factor(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
@@ -160,7 +164,9 @@ static uint64_t mark_of_rows(const dmb_sim *sim, uint32_t k)
     return mark_of(sim->partition_rank[k], sim->partition_row + sim->scene->clusters[k].row);
 }
 
-/* 1: the choice of component k is to be renewed. */
+/* 1: the choice of component k is to be renewed. Quality is held against the best since the choice, not against a fixed
+ * bound, because its size depends on units and geometry; DMB_QUALITY_FALL leaves room for motion without a switch in
+ * each step. */
 static int is_due(dmb_sim *sim, uint32_t k)
 {
     const int fallen = sim->cluster_quality[k] < DMB_QUALITY_FALL * sim->partition_quality[k];
@@ -168,7 +174,7 @@ static int is_due(dmb_sim *sim, uint32_t k)
     return fallen || sim->partition_rank[k] != dmb_cluster_active_rows(sim, sim->scene->clusters + k);
 }
 
-/* Renews the choice of all sparse components together. */
+/* Renews the choice of all sparse components together, because one factorisation covers them. */
 static void watch_sparse(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

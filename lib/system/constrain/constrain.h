@@ -107,10 +107,16 @@ uint32_t dmb_constraint_of_row(const dmb_scene *scene, uint32_t row);
 /* ---- The caller's constraints: constraint_rows_callback.c -------------------------------------------------------- */
 
 /* The caller's constraints. Derivatives that the callback does not give are built by central differences of fourth
- * order: J by places:  along each body-frame component;      rate: along time at fixed poses convective:   along the
- * motion q exp(s v), t + s: of A v + b its first derivative, of C its second; if J is given, (J v)' + d(J v)/dt +
- * d2C/dt2 instead, which the rounding of large coordinates does not degrade Difference steps are long: 2 km from the
- * origin, positions round to 2e-13 m, which divided by a short step would disturb Newton's iteration. */
+ * order:
+ *
+ *     J by places:  along each body-frame component
+ *     rate:         along time at fixed poses
+ *     convective:   along the motion q exp(s v), t + s: of A v + b its first derivative, of C its second; if J is
+ *                   given, (J v)' + d(J v)/dt + d2C/dt2 instead, which the rounding of large coordinates does not
+ *                   degrade
+ *
+ * Difference steps are long: 2 km from the origin, positions round to 2e-13 m, which divided by a short step would
+ * disturb Newton's iteration. */
 
 /* Rows of a callback; and a comparison of its Jacobian with differences: DMB_ERR_CALLBACK with row and column in the
  * message of the sim. system/constrain/constraint_rows_callback */
