@@ -1,6 +1,6 @@
 /* Frequency response about a state of rest against closed forms: Jeffcott rotor, receptance of a cantilever with
  * structural damping, rods that drives move, a controlled mass; reciprocity; joints against shared nodes; growth of the
- * scene's own excitations with frequency. Equations: eq:response.direct, eq:response.eccentric. */
+ * scene's own excitations with frequency. Equations: eq:response.direct, eq:response.eccentric, eq:motion.unbalance. */
 #include <stdio.h>
 
 #include "harmonic.h"

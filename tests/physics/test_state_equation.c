@@ -1,5 +1,6 @@
 /* The state equation: rates against closed forms and differences of poses, an outside Runge-Kutta against the library's
- * own steps and a reference of high order, and scenes that have a memory. */
+ * own steps and a reference of high order, and scenes that have a memory. Equations: eq:joints.state-equation,
+ * eq:joints.chart, eq:joints.chart-rate, eq:joints.accelerations, eq:joints.velocity-partition. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

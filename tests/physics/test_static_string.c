@@ -1,4 +1,5 @@
-/* Statics of the reference string S1 in its hole: at rest, pushed, turning, falling on the wall, refined, and long. */
+/* Statics of the reference string S1 in its hole: at rest, pushed, turning, falling on the wall, refined, and long.
+ * Equations: eq:static.line-search. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Time functions: values, rates, integrals and breakpoints against closed forms, differences and quadrature. Equations:
- * eq:drive.step. */
+ * eq:drive.step, eq:drive.per-revolution. */
 #include "force/time_function.h"
 
 #include "force_test.h"
