@@ -11,10 +11,11 @@
 #include "command_line.h"
 
 static int32_t bit_torque(void *context, double time, uint32_t count, const double (*poses)[12],
-                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                          const dmb_law_memory *memory)
 {
     const double w = velocities[0][3], n = sqrt(w * w + 0.01), s = w / n, fall = 0.4 * exp(-n / 3.0);
-    (void)context, (void)time, (void)count, (void)poses, (void)potential;
+    (void)context, (void)time, (void)count, (void)poses, (void)potential, (void)memory; /* it has no state */
     forces[0][3] = -900.0 * (0.6 + fall) * s;
     if (tangent == NULL) return 0;
     tangent[36 + 6 * 3 + 3] = -900.0 * ((0.6 + fall) * 0.01 / (n * n * n) - fall / 3.0 * s * s); /* by the speed */

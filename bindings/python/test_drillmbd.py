@@ -885,6 +885,32 @@ class ForceTest(unittest.TestCase):
                 self.assertAlmostEqual(a, b, 9)
             self.assertAlmostEqual(known.energy().strain, found.energy().strain, 8)
 
+    def test_law_with_a_state(self):
+        told, k, limit = [], 2000.0, 30.0
+
+        def slider(time, poses, velocities, state, step):
+            x, (s, before) = poses[0][2], state
+            s = max(-limit / k, min(limit / k, s + x - before))
+            return [0.0, 0.0, -k * s, 0.0, 0.0, 0.0], [s, x]
+
+        model = mbd.Model()
+        body = model.add_body(mass=2.0, velocity=[0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+        model.set_environment(gravity=[0.0, 0.0, 0.0])
+        model.add_force(places=[body], function=slider, state_count=2, accept=lambda *what: told.append(what))
+        model.compile()
+        with model.sim() as sim:
+            sim.steps(1e-3, 50)
+            saved, number = sim.snapshot(), sim.hash()
+            sim.steps(1e-3, 50)
+            end = sim.hash()
+            sim.restore(saved)
+            self.assertEqual(sim.hash(), number)
+            sim.steps(1e-3, 50)
+            self.assertEqual(sim.hash(), end)
+            self.assertEqual(len(told), 150)
+            self.assertEqual(told[-1][:2], (sim.time, 0))
+            self.assertAlmostEqual(told[-1][2][1], sim.pose(mbd.station(body)).position[2], 12)
+
     def test_function_that_raises(self):
         calls = []
 

@@ -653,6 +653,20 @@ DMB_SIZED_STRUCT(dmb_spring_def)
  * Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does. */
 DMB_API int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def, dmb_id *spring);
 
+/* Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots,
+ * hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the
+ * motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx. */
+typedef struct dmb_law_memory {
+    const double *accepted; /* at the last accepted time, shape (state_count) */
+    double *trial;          /* at `time`, written, shape (state_count); `accepted` when called */
+    double step;            /* [s] between them. 0: no time passes, as in statics, where the state follows the path of
+                               load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses
+                               read damping and stiffness from short steps: use the trapezoidal rule for rates */
+} dmb_law_memory;
+/* Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact
+ * point of the wall; 0 of a force. */
+typedef void (*dmb_accept_fn)(void *context, double time, uint32_t number, const double *state);
+
 /* The caller's force on up to four places or joint coordinates by their poses, velocities and time, in the axes of
  * `frame`. poses[i]: position [m] in the world (3), rotation matrix to the world, row-major (9); velocities[i] [m/s,
  * rad/s]; forces[i]: force [N] and moment [N m] on the place, 0 when called. Of a joint's coordinate number 0 of each
@@ -663,7 +677,8 @@ DMB_API int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def
  * run. Followers and circulatory forces are respected. Load steps and factors of buckling leave it alone. */
 enum { DMB_PROVIDES_TANGENT = 1, DMB_PROVIDES_POTENTIAL = 2 };
 typedef int32_t (*dmb_force_fn)(void *context, double time, uint32_t place_count, const double (*poses)[12],
-                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential);
+                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                                const dmb_law_memory *memory);
 /* Place in `tangent` of the derivative of component k of force i by component l of displacement j (by_velocity 0) or
  * of velocity j (1). */
 static inline uint32_t dmb_tangent_index(uint32_t place_count, int by_velocity, uint32_t i, uint32_t k, uint32_t j,
@@ -684,6 +699,9 @@ typedef struct dmb_force_def {
     double pose_step, speed_step; /* [m, rad; m/s, rad/s] of differences, 1e-12 .. 1; default 1e-5 */
     dmb_force_fn callback;        /* required */
     void *callback_context;
+    uint32_t state_count; /* [-] numbers of its state, 0 .. 65536, then without a potential; default 0 */
+    uint32_t reserved;
+    dmb_accept_fn accept; /* has callback_context; NULL (default): none */
 } dmb_force_def;
 DMB_SIZED_STRUCT(dmb_force_def)
 /* Errors as of a spring; DMB_ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady`

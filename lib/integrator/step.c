@@ -31,6 +31,7 @@
 #include "sim/layout.h"
 #include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
@@ -152,6 +153,12 @@ void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_ste
     stepping->report.rejected++;
     stepping->report.iterations += trial_step->iterations;
     if (trial_step->status < 0) dmb_trial_step_explain(sim, trial_step);
+}
+
+int dmb_stepping_ends(dmb_sim *sim)
+{
+    if (sim->scene->force_count > 0) dmb_caller_laws_accept(sim);
+    return sim->on_step != NULL && sim->on_step(sim->on_step_context, sim) != 0;
 }
 
 void dmb_stepping_tell_end(dmb_sim *sim, uint32_t steps)

@@ -35,11 +35,9 @@ void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_ste
 int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report,
                          const dmb_stepping *stepping);
 
-/* After an accepted step: calls the caller's function of accepted steps. 1: it ends the call. */
-static inline int dmb_stepping_ends(dmb_sim *sim)
-{
-    return sim->on_step != NULL && sim->on_step(sim->on_step_context, sim) != 0;
-}
+/* After an accepted step: calls the accept functions of the callers' laws and the caller's function of accepted steps.
+ * 1: it ends the call. */
+int dmb_stepping_ends(dmb_sim *sim);
 /* The same within a call that goes on to `time` [s]: the reason to stop before it, or 0. */
 int32_t dmb_stepping_stops(dmb_sim *sim, double time, const dmb_stepping *stepping);
 /* Message of a call that the function of accepted steps ended. */

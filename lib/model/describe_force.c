@@ -156,6 +156,9 @@ static void relate_force(dmb_check *check, dmb_model *model, const void *part)
 {
     const dmb_force_def *def = part;
     for (uint32_t i = 0; i < def->place_count && check->status >= 0; ++i) check_argument(check, model, def, i);
+    if (check->status >= 0 && def->state_count > 0 && (def->provides & DMB_PROVIDES_POTENTIAL) != 0)
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "provides", def->provides,
+                       "without DMB_PROVIDES_POTENTIAL where state_count > 0: its power is work of loads");
 }
 
 int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, dmb_id *force)

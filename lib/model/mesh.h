@@ -111,6 +111,7 @@ typedef struct dmb_mesh {
     dmb_vector spring_points;         /* dmb_spring_point */
     dmb_vector events;                /* dmb_scene_event */
     dmb_vector forces;                /* dmb_scene_force */
+    uint32_t force_states;            /* numbers of their states */
     dmb_vector stuck;                 /* dmb_scene_stuck */
     dmb_vector flow_pieces;           /* dmb_flow_piece */
     dmb_vector joints;                /* dmb_scene_joint */

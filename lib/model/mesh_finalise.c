@@ -151,6 +151,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->bit_count = (uint32_t)mesh->bits.count;
     scene->load_point_count = (uint32_t)mesh->load_points.count;
     scene->force_count = (uint32_t)mesh->forces.count;
+    scene->force_states = mesh->force_states;
     scene->stuck_count = (uint32_t)mesh->stuck.count;
     scene->flow_count = (uint32_t)mesh->flow_pieces.count;
     scene->spring_count = (uint32_t)mesh->springs.count;

@@ -158,11 +158,16 @@ static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
 
 /* ---- Forces by the caller's functions ---------------------------------------------------------------------------- */
 
+enum { STATES_MAX = 1 << 24 };
+
 static int32_t add_force(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_force_def *def = DMB_LIST_AT(const dmb_force_def, mesh->model->forces, i);
     dmb_scene_force force = {.callback = def->callback,
+                             .accept = def->accept,
                              .context = def->callback_context,
+                             .state = mesh->force_states,
+                             .states = def->state_count,
                              .pose_step = def->pose_step,
                              .speed_step = def->speed_step,
                              .count = def->place_count,
@@ -185,6 +190,9 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
             force.point[k] = dmb_mesh_point(&check, mesh, field.text, &def->place[k], def->offset + 3 * k);
         use_nearer_node(mesh, &force.point[k]);
     }
+    if (check.status >= 0 && def->state_count > STATES_MAX - mesh->force_states)
+        dmb_check_fail(&check, DMB_ERR_TOO_LARGE, "state_count", def->state_count, "<= 2^24 in all forces together");
+    mesh->force_states += def->state_count;
     return check.status < 0 ? check.status : dmb_vector_append(&mesh->forces, &mesh->model->allocator, &force, 1);
 }
 

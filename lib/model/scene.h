@@ -236,6 +236,7 @@ typedef struct dmb_scene {
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count, rotor_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
+    uint32_t force_states;     /* [-] numbers of the states of all forces */
     uint32_t unilateral_count; /* stops of laws of joints, then springs, then springs of laws; 0 where none may have a
                                   mean force */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;

@@ -79,9 +79,12 @@ typedef struct dmb_scene_force {
     uint32_t joint[DMB_CONSTRAINT_PLACES];        /* DMB_NONE: a point */
     int32_t component[DMB_CONSTRAINT_PLACES];
     dmb_force_fn callback;
+    dmb_accept_fn accept; /* NULL: none */
     void *context;
     double pose_step, speed_step;
     uint32_t count;
+    uint32_t state, states; /* first number of its state, and how many */
+    uint32_t reserved;
     int32_t frame, provides;
     uint32_t constraint; /* DMB_NONE: within a node or an element */
     char name[24];

@@ -269,6 +269,7 @@ static uint64_t add_forces(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, force->count);
         h = dmb_fnv_word(h, (uint32_t)force->frame);
         h = dmb_fnv_word(h, (uint32_t)force->provides);
+        h = dmb_fnv_word(h, force->states);
         h = dmb_fnv_number(h, force->pose_step);
         h = dmb_fnv_number(h, force->speed_step);
         for (uint32_t k = 0; k < force->count; ++k) {

@@ -33,6 +33,7 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(drive_offset, d);
     DMB_COPY(now.load_factor, sim->scene->load_count);
     DMB_COPY(now.force_potential, sim->scene->force_count);
+    DMB_COPY(now.force_state, sim->scene->force_states);
     DMB_COPY(input_value, sim->scene->input_count);
     DMB_COPY(input_begin, 3 * (size_t)sim->scene->input_count);
     DMB_COPY(event_since, sim->scene->event_count);

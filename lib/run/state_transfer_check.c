@@ -124,6 +124,13 @@ static int32_t check_loads(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
+static int32_t check_forces(dmb_sim *sim, const dmb_sim *from)
+{
+    for (uint32_t i = 0; i < sim->scene->force_count; i++)
+        if (sim->scene->forces[i].states != from->scene->forces[i].states) return other(sim, "force", i, "state_count");
+    return DMB_OK;
+}
+
 /* A transferred value must be within the bounds of the other model's input. */
 static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
 {
@@ -319,6 +326,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from)
     if (status >= 0) status = check_bits(sim, from);
     if (status >= 0) status = check_drives(sim, from);
     if (status >= 0) status = check_loads(sim, from);
+    if (status >= 0) status = check_forces(sim, from);
     if (status >= 0) status = check_inputs(sim, from);
     if (status >= 0) status = check_events(sim, from);
     if (status >= 0) status = check_joints(sim, from);

@@ -9,8 +9,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, pf, st, e, d, k, law, load, history, diagonal, link, backup;
-    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, stuck, f, ro, j, c, cluster, column, raw, jacobian,
-        tangent, dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, fs, spare, stuck, f, ro, j, c, cluster, column, raw,
+        jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
 } field_counts;
 
@@ -25,6 +25,8 @@ typedef struct field_counts {
     const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
     const uint64_t stuck = (of)->stuck;                                                                             \
     const uint64_t u = (of)->u, ur = (of)->ur;                                                                      \
+    const uint64_t fs = (of)->fs, spare = (of)->spare;                                                              \
+    (void)fs, (void)spare;                                                                                          \
     (void)u, (void)ur, (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                    \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb, st = (of)->st;        \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
@@ -117,6 +119,10 @@ static field_counts counts_of(const dmb_scene *scene)
     c.k = scene->bit_count;
     c.load = scene->load_count;
     c.force = scene->force_count;
+    c.fs = scene->force_states;
+    c.spare = 0;
+    for (uint32_t i = 0; i < scene->force_count; i++)
+        if (scene->forces[i].states > c.spare) c.spare = scene->forces[i].states;
     c.stuck = scene->stuck_count;
     c.history = scene->history_count;
     c.diagonal = n > 0 ? scene->layout.diag[n] : 0;

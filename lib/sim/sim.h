@@ -7,12 +7,13 @@
  * else 0; pf = p with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u =
  * unilateral_count, ur = r where there are any, else 0; ns = n where there are contact points or any of those, else 0;
  * kd, kl, kn: see the factors; piece = most chunks of one loop (sim/chunks); k = bit_count, act = actuator_count, delay
- * = delay_count, load = load_count, force = force_count, stuck = stuck_count, cut = stations at which cutters widen the
- * hole, held = constrained_count, input = input_count, event = event_count, history = history_count, chain =
- * chain_count, f = free_rigid_count, ro = rotor_count, diagonal and link = lengths of block storage; j = joint_count, c
- * = constraint_row_count, cluster = cluster_count (constraint components), column = cluster_column_count, jacobian,
- * tangent = lengths of their storage, and for a scene with joints only: raw = row_count, dense, square, full = storage
- * of the components, block, value, pivots = of the reduced system, sparse_... = of sparse components. */
+ * = delay_count, load = load_count, force = force_count, fs, spare = force_states and the most of one force, stuck =
+ * stuck_count, cut = stations at which cutters widen the hole, held = constrained_count, input = input_count, event =
+ * event_count, history = history_count, chain = chain_count, f = free_rigid_count, ro = rotor_count, diagonal and link
+ * = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count (constraint
+ * components), column = cluster_column_count, jacobian, tangent = lengths of their storage, and for a scene with joints
+ * only: raw = row_count, dense, square, full = storage of the components, block, value, pivots = of the reduced system,
+ * sparse_... = of sparse components. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -96,6 +97,7 @@ typedef struct dmb_drive_variables {
                                                    system/assemble/joint_forces; at jumps                             \
                                                    system/assemble/ledger_work */                                     \
     X(double, force_potential, force, NUMBERS)  /* [J] of the callers' forces: system/assemble/caller_force */        \
+    X(double, force_state, fs, NUMBERS)         /* of their laws: system/assemble/caller_force */                     \
     /* system/constrain/joint_motion, from pose: */                                                                   \
     X(double, joint_turn, 2 * j, NUMBERS)       /* [rad] RX and RY, revolutions counted:                              \
                                                    system/constrain/joint_state, of a state that is set               \
@@ -309,6 +311,8 @@ typedef struct dmb_drive_variables {
     X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_reduced_mode, reduced_mode, 1)        /* written by whoever detects a violation: system/, integrator/,      \
                                                    analysis/, run/ */                                                 \
+    X(double, force_spare, spare)               /* state of a call at an argument nearby:                             \
+                                                   system/assemble/caller_force */                                    \
     X(double, input_before, 4 * input)          /* value and start of transition, while a call sets some:             \
                                                    run/inputs */                                                      \
     X(uint8_t, backup, backup)                  /* the state before a call of more than one step: sim/layout */

@@ -32,8 +32,10 @@ static int32_t bent(void *context, double time, double out[3])
 
 /* A weak spring to where it is. */
 static int32_t hold(void *context, double time, uint32_t count, const double (*poses)[12],
-                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                    const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)time, (void)tangent, (void)potential, (void)count;
     for (int i = 0; i < 3; i++) forces[0][i] = -10.0 * poses[0][i] - velocities[0][i];
     return answer(context);

@@ -43,8 +43,10 @@ static int32_t one(void *context, double time, double out[3])
 
 /* A spring, soft across. */
 static int32_t hold(void *context, double time, uint32_t count, const double (*poses)[12],
-                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                    const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)time;
     const subject *c = context;
     const double away = poses[0][0] - c->home;

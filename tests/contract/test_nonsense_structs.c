@@ -125,8 +125,10 @@ static int32_t add_load(dmb_model *model, void *p)
 }
 
 static int32_t no_force(void *context, double time, uint32_t count, const double (*poses)[12],
-                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                        const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
     return 0;
 }

@@ -14,8 +14,10 @@ typedef struct subject {
 
 /* It exerts nothing. */
 static int32_t answer(void *context, double time, uint32_t count, const double (*poses)[12],
-                      const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                      const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                      const dmb_law_memory *memory)
 {
+    (void)memory;
     subject *c = context;
     (void)time, (void)poses, (void)velocities, (void)potential;
     for (uint32_t i = 0; i < 6; i++) forces[0][i] = 0.0;

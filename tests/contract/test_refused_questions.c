@@ -111,8 +111,10 @@ static void stepped_sines(void **state)
 /* ---- Steady states: what may act on parts that move -------------------------------------------------------------- */
 
 static int32_t nothing(void *context, double time, uint32_t count, const double (*poses)[12],
-                       const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                       const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                       const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
     return 0;
 }

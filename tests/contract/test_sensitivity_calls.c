@@ -276,8 +276,10 @@ static void ask_within(void)
 }
 
 static int32_t pull(void *context, double time, uint32_t count, const double (*poses)[12],
-                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                    const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)velocities, (void)tangent, (void)potential;
     forces[0][0] = -50.0 * poses[0][0];
     if (within != NULL) ask_within();

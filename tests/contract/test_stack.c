@@ -53,8 +53,10 @@ static void *run(void *context)
 
 /* A force on as many places as there can be, whose derivatives are given. */
 static int32_t pull(void *context, double time, uint32_t count, const double (*poses)[12],
-                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                    const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)poses, (void)velocities, (void)tangent, (void)potential;
     for (uint32_t i = 0; i < count; i++) forces[i][1] = 0.1;
     return 0;

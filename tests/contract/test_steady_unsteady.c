@@ -416,8 +416,10 @@ static void laws_of_open_joints(void **state)
 /* ---- Springs, places that are stuck, forces of the caller -------------------------------------------------------- */
 
 static int32_t no_force(void *context, double time, uint32_t count, const double (*poses)[12],
-                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                        const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
     return 0;
 }

@@ -412,8 +412,9 @@ static inline int32_t whole_add_guy(dmb_model *model, whole_parts *parts)
 /* Between the wheel's axle and a place inside a pipe: dampers, and a constant pull. */
 static inline int32_t whole_force(void *context, double time, uint32_t count, const double (*poses)[12],
                                   const double (*velocities)[6], double (*forces)[6], double *tangent,
-                                  double *potential)
+                                  double *potential, const dmb_law_memory *memory)
 {
+    (void)memory;
     const whole_parts *parts = context;
     (void)time, (void)count, (void)tangent;
     forces[0][0] = -0.1 * velocities[0][0];
@@ -421,6 +422,31 @@ static inline int32_t whole_force(void *context, double time, uint32_t count, co
     forces[1][2] = 0.3;
     *potential = -0.3 * poses[1][2];
     return parts->callback_status;
+}
+
+/* A damper whose force follows the speed with a lag of 10 ms, which is its state. */
+static inline int32_t whole_law(void *context, double time, uint32_t count, const double (*poses)[12],
+                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                                const dmb_law_memory *memory)
+{
+    const whole_parts *parts = context;
+    const double share = memory->step / (0.01 + memory->step);
+    (void)time, (void)count, (void)poses, (void)tangent, (void)potential;
+    for (int i = 0; i < 3; i++) {
+        memory->trial[i] = memory->accepted[i] + share * (velocities[0][i] - memory->accepted[i]);
+        forces[0][i] = -0.2 * memory->trial[i];
+    }
+    return parts->callback_status;
+}
+
+static inline int32_t whole_add_law(dmb_model *model, whole_parts *parts)
+{
+    dmb_force_def force = dmb_force_def_default();
+    force.place[0] = dmb_station(parts->string, 2, 0.35);
+    force.state_count = 3;
+    force.callback = whole_law;
+    force.callback_context = parts;
+    return dmb_model_add_force(model, &force, NULL);
 }
 
 /* Inside an element. */
@@ -514,14 +540,15 @@ typedef int32_t (*whole_call)(dmb_model *model, whole_parts *parts);
 
 /* Every call of the description, compile last. */
 static const whole_call whole_calls[] = {
-    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,      whole_add_harmonic,
-    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,       whole_add_string,
-    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe,  whole_add_second,
-    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,        whole_add_feed,
-    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load,  whole_add_follower,
-    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,       whole_add_spring,
-    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,       whole_add_guy,
-    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_add_stabiliser, whole_compile};
+    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,     whole_add_harmonic,
+    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,      whole_add_string,
+    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,
+    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,       whole_add_feed,
+    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
+    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
+    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,      whole_add_guy,
+    whole_add_point_load,   whole_add_force,          whole_add_law,         whole_add_stuck,     whole_add_stabiliser,
+    whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)

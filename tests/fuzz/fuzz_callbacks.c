@@ -92,8 +92,10 @@ static void differentiate_force(const function *f, uint32_t count, const double 
 }
 
 static int32_t push(void *context, double time, uint32_t count, const double (*poses)[12],
-                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                    const dmb_law_memory *memory)
 {
+    (void)memory;
     function *f = context;
     (void)time;
     if (++f->calls == f->fails_at) return 1;

@@ -213,8 +213,10 @@ static inline void draw_stabiliser(random_scene *c)
 }
 
 static inline int32_t draw_push(void *context, double time, uint32_t count, const double (*poses)[12],
-                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                                const dmb_law_memory *memory)
 {
+    (void)memory;
     const random_scene *c = context;
     (void)count, (void)tangent, (void)potential;
     forces[0][0] = 5.0 * sin(10.0 * time) - 3.0 * velocities[0][0];

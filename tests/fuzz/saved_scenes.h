@@ -154,8 +154,10 @@ static inline dmb_id saved_stuck(saved_scene *s)
 }
 
 static inline int32_t saved_push(void *context, double time, uint32_t count, const double (*poses)[12],
-                                 const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                                 const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                                 const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)velocities, (void)tangent;
     forces[0][2] = -3.0;
     *potential = 3.0 * poses[0][2];

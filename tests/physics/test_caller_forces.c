@@ -36,8 +36,10 @@ typedef struct line {
 
 /* f = -(k (l - l0) + c l') n with its derivatives by x and v; U = k (l - l0)^2/2. */
 static int32_t spring_force(void *context, double time, uint32_t count, const double (*poses)[12],
-                            const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                            const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                            const dmb_law_memory *memory)
 {
+    (void)memory;
     const line *o = context;
     const double *x = poses[0], *v = velocities[0];
     const double l = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
@@ -157,14 +159,15 @@ static void a_spring_written_again_is_the_spring(void **state)
 /* The same force in axes of the place: it turns, and is off the middle of the bar. */
 static int32_t spring_in_body_axes(void *context, double time, uint32_t count, const double (*poses)[12],
                                    const double (*velocities)[6], double (*forces)[6], double *tangent,
-                                   double *potential)
+                                   double *potential, const dmb_law_memory *memory)
 {
     const double *R = poses[0] + 3, *v = velocities[0];
     double speed[1][6] = {{0.0}}, force[1][6] = {{0.0}};
     (void)tangent;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) speed[0][i] += R[3 * i + j] * v[j];
-    const int32_t status = spring_force(context, time, count, poses, (const double(*)[6])speed, force, NULL, potential);
+    const int32_t status =
+        spring_force(context, time, count, poses, (const double(*)[6])speed, force, NULL, potential, memory);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) forces[0][i] += R[3 * j + i] * force[0][j];
     return status;
@@ -212,8 +215,10 @@ static void a_potential_in_axes_of_the_place(void **state)
 /* ---- Followers --------------------------------------------------------------------------------------------------- */
 
 static int32_t push_along(void *context, double time, uint32_t count, const double (*poses)[12],
-                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                          const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)time, (void)count, (void)poses, (void)velocities, (void)tangent, (void)potential;
     forces[0][0] = -*(const double *)context;
     return 0;
@@ -266,8 +271,10 @@ static void a_column_flutters_under_a_follower(void **state)
 
 /* Van der Pol along a slider: x'' = mu (1 - x^2) x' - x. */
 static int32_t van_der_pol(void *context, double time, uint32_t count, const double (*poses)[12],
-                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                           const dmb_law_memory *memory)
 {
+    (void)memory;
     const double mu = *(const double *)context, x = poses[0][0], v = velocities[0][0];
     (void)time, (void)count;
     forces[0][0] = mu * (1.0 - x * x) * v - x;
@@ -323,8 +330,10 @@ static void an_oscillator_finds_its_limit_cycle(void **state)
 
 /* Two balls attract each other by G/r^2. */
 static int32_t attract(void *context, double time, uint32_t count, const double (*poses)[12],
-                       const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                       const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                       const dmb_law_memory *memory)
 {
+    (void)memory;
     const double G = *(const double *)context;
     double d[3], r = 0.0;
     (void)time, (void)count, (void)velocities, (void)tangent;
@@ -383,8 +392,10 @@ static void balls_circle_about_each_other(void **state)
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static int32_t wrong_tangent(void *context, double time, uint32_t count, const double (*poses)[12],
-                             const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                             const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                             const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)time, (void)count, (void)velocities, (void)potential;
     forces[0][2] = -3.0 * poses[0][2];
     if (tangent != NULL) tangent[14] = 3.0;
@@ -392,8 +403,10 @@ static int32_t wrong_tangent(void *context, double time, uint32_t count, const d
 }
 
 static int32_t fails_later(void *context, double time, uint32_t count, const double (*poses)[12],
-                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                           const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)context, (void)count, (void)poses, (void)velocities, (void)tangent, (void)potential;
     forces[0][1] = time < 0.5 ? 1.0 : (double)NAN;
     return 0;

@@ -255,8 +255,10 @@ static dmb_place place_of(const rod *r, double fraction)
 }
 
 static int32_t given_force(void *context, double time, uint32_t count, const double (*poses)[12],
-                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                           const dmb_law_memory *memory)
 {
+    (void)memory;
     (void)time, (void)count, (void)poses, (void)velocities, (void)tangent, (void)potential;
     memcpy(forces[0], context, 6 * sizeof(double));
     return 0;

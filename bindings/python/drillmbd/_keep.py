@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from ._functions import FUNCTION_DOCS
 from ._parts import Parts, closed, is_closed
 from ._record import Record
-from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
+from ._structs import ACCEPT_FN, CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
 from ._values import flat, real, reals, refuse_type, shown
 from .enums import ERR_IO, PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
 from .errors import MIRRORED, Error, check
@@ -132,13 +132,19 @@ class Keep:
         self.references.append(wrapped)
         return wrapped
 
-    def force(self, function: Callable[..., Any], provides: int) -> Any:
-        """The C function around a Python function of time, poses and velocities."""
+    def force(self, function: Callable[..., Any], provides: int, states: int = 0) -> Any:
+        """The C function around a Python function of time, poses and velocities, of a law with a state also of the state
+        at the last accepted time and the time since."""
         def call(_context: Any, time: float, count: int, poses: Any, velocities: Any, forces: Any, tangent: Any,
-                 potential: Any) -> int:
+                 potential: Any, memory: Any) -> int:
             try:
-                answer = function(time, [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)])
-                parts = list(answer) if provides else [answer]
+                motion = [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)]
+                law = memory.contents
+                answer = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
+                parts = list(answer) if provides or states else [answer]
+                if states:
+                    for i, number in enumerate(reals(flat(parts.pop()), "force", "state", states)):
+                        law.trial[i] = number
                 for i, number in enumerate(reals(flat(parts.pop(0)), "force", "result of the function", 6 * count)):
                     forces[i // 6][i % 6] = number
                 if provides & PROVIDES_TANGENT:
@@ -153,6 +159,18 @@ class Keep:
                 return 1
 
         wrapped = FORCE_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def accept(self, function: Callable[[float, int, list[float]], Any], states: int) -> Any:
+        """The C function around a Python function of time, number and accepted state of a law."""
+        def call(_context: Any, time: float, number: int, state: Any) -> None:
+            try:
+                function(time, number, state[:states] if states else [])
+            except BaseException as error:  # raised when the call ends
+                self.raised.error = error
+
+        wrapped = ACCEPT_FN(call)
         self.references.append(wrapped)
         return wrapped
 

@@ -422,7 +422,9 @@ class ForcePart(PlacesPart):
     """A force on one to four `places` (places, bodies, or joints with their `component`). `function` takes the time, a
     sequence of poses, each of twelve numbers (position, rotation matrix by rows), and one of velocities, each of six; it
     returns six numbers a place. With provides=PROVIDES_TANGENT it returns a tuple that also has the derivatives by
-    displacements and by velocities, 6 places x 6 places each; with PROVIDES_POTENTIAL the energy [J] comes last."""
+    displacements and by velocities, 6 places x 6 places each; with PROVIDES_POTENTIAL the energy [J] comes last. With
+    state_count > 0 the function also takes the state at the last accepted time and the time [s] since, and returns the
+    new state last of a tuple."""
 
 
 class ConstraintPart(PlacesPart):

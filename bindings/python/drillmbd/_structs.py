@@ -371,6 +371,23 @@ class StringDef(Sized):
     }
 
 
+class LawMemory(Record):
+    c_name, about = "dmb_law_memory", "Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots, hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx."
+    accepted: Any
+    trial: Any
+    step: float
+    _fields_: ClassVar[Any] = [
+        ("accepted", POINTER(c_double)),
+        ("trial", POINTER(c_double)),
+        ("step", c_double),
+    ]
+    field_docs = {
+        "accepted": ("", "at the last accepted time, shape (state_count)"),
+        "trial": ("", "at `time`, written, shape (state_count); `accepted` when called"),
+        "step": ("s", "between them. 0: no time passes, as in statics, where the state follows the path of load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses read damping and stiffness from short steps: use the trapezoidal rule for rates"),
+    }
+
+
 class Motor(MotorPart, Sized):
     c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both sections, equal and opposite, and its power is that of a drive. A line: T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985). A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed. Below w = 0 it gives its torque at stall."
     struct_size: int
@@ -2280,8 +2297,8 @@ CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_doubl
 CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
 
 
-FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double))
-FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
+ACCEPT_FN = CFUNCTYPE(None, c_void_p, c_double, c_uint32, POINTER(c_double))
+ACCEPT_FN.__doc__ = "Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact point of the wall; 0 of a force."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
@@ -3148,6 +3165,10 @@ ERROR_FN = CFUNCTYPE(None, c_void_p, POINTER(ErrorStruct))
 ERROR_FN.__doc__ = "Sees each failing call on a model and its sims, at its end and in its thread; may not change them."
 
 
+FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double), POINTER(LawMemory))
+FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
+
+
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
 PARALLEL_FN.__doc__ = "Long strings on several cores, with threads of the caller's: dmb_sim_step and _advance call this function some ten times an iteration. It calls part(work, i) once for each i < count, in any threads and order, and returns 0 when all have returned; another value, or parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits in any number of parts, if all threads round to nearest and keep denormal numbers. A part needs 64 kB of stack and calls no callback. A part that still runs when the function returns, or that runs twice at once, is the caller's error and not always found. It is faster with threads that spin (start in 2 us): examples/two_cores."
 
@@ -3413,8 +3434,11 @@ class ForceDef(ForcePart, Sized):
     speed_step: float
     callback: Any
     callback_context: Any
+    state_count: int
+    reserved: int
+    accept: Any
     if TYPE_CHECKING:
-        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Iterable[Any] = ..., offset: Iterable[float] = ..., component: Iterable[Any] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Iterable[Any] = ..., offset: Iterable[float] = ..., component: Iterable[Any] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ..., state_count: int = ..., accept: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -3428,6 +3452,9 @@ class ForceDef(ForcePart, Sized):
         ("speed_step", c_double),
         ("callback", FORCE_FN),
         ("callback_context", c_void_p),
+        ("state_count", c_uint32),
+        ("reserved", c_uint32),
+        ("accept", ACCEPT_FN),
     ]
     field_docs = {
         "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
@@ -3441,6 +3468,8 @@ class ForceDef(ForcePart, Sized):
         "speed_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
         "callback": ("", "required"),
         "callback_context": ("", ""),
+        "state_count": ("-", "numbers of its state, 0 .. 65536, then without a potential; default 0"),
+        "accept": ("", "has callback_context; NULL (default): none"),
     }
 
 
@@ -3892,6 +3921,7 @@ STRUCTS["dmb_constraint_def"] = ConstraintDef
 STRUCTS["dmb_drive_def"] = DriveDef
 STRUCTS["dmb_load_def"] = LoadDef
 STRUCTS["dmb_spring_def"] = SpringDef
+STRUCTS["dmb_law_memory"] = LawMemory
 STRUCTS["dmb_force_def"] = ForceDef
 STRUCTS["dmb_stuck_def"] = StuckDef
 STRUCTS["dmb_motor"] = Motor

@@ -264,10 +264,14 @@ class Model(Handle, ModelCalls):
             return self._add("event", EventDef, definition, fields)
 
         def add_force(self, definition: ForceDef | None = None, **fields: Any) -> Id:
-            """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields."""
+            """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields. accept:
+            a function of time, 0 and the state, called after each accepted step."""
+            told = fields.pop("accept", None)
             definition = struct(ForceDef, definition, fields)
+            if told is not None:
+                definition.accept = self._keep.accept(told, definition.state_count)
             if definition._function is not None:
-                definition.callback = self._keep.force(definition._function, definition.provides)
+                definition.callback = self._keep.force(definition._function, definition.provides, definition.state_count)
             return self._add("force", ForceDef, definition, {})
 
     @mirrors("dmb_model_set_name")

@@ -62,7 +62,7 @@ static int32_t add_velocity_tangent(dmb_linear *linear, double factor, double st
 
 static int has_integrals(const dmb_scene *scene)
 {
-    if (dmb_scene_has_bristles(scene)) return 1;
+    if (dmb_scene_has_bristles(scene) || scene->force_states > 0) return 1;
     for (uint32_t i = 0; i < scene->drive_count; i++)
         if (scene->drives[i].kind == DMB_DRIVE_CONTROL && scene->drives[i].integral_gain != 0.0) return 1;
     return 0;

@@ -102,9 +102,22 @@ static int32_t check_constraints(dmb_sim *sim)
     return DMB_OK;
 }
 
+static int32_t check_forces(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->force_count; i++) {
+        const dmb_scene_force *force = sim->scene->forces + i;
+        dmb_message name;
+        if (force->states == 0) continue;
+        (void)dmb_part_text(&name, "force", i, force->name, sizeof force->name);
+        return refuse(sim, name.text, "its law has a state (state_count > 0), which is a memory; take a law without");
+    }
+    return DMB_OK;
+}
+
 int32_t dmb_state_check_memory(dmb_sim *sim)
 {
     int32_t status = check_wall(sim);
+    if (status >= 0) status = check_forces(sim);
     if (status >= 0) status = check_bits_and_places(sim);
     if (status >= 0) status = check_drives(sim);
     return status < 0 ? status : check_constraints(sim);

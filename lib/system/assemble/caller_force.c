@@ -6,6 +6,8 @@
 #include "math/so3.h"
 #include "system/constrain/constrain.h"
 
+#define DMB_STEP_CHECK 1e-3 /* [s] at which the tangent of a law with a state is compared, besides 0 */
+
 /* An argument: a place, or a joint's coordinate. */
 typedef struct argument {
     union { /* a union, because four of both need 3 kB more stack */
@@ -267,15 +269,25 @@ static int32_t add_power(dmb_evaluation *evaluation, const dmb_caller_question *
     return DMB_OK;
 }
 
+/* The question without its arguments. Trial and work fields are written. */
+static void begin(dmb_sim *sim, uint32_t i, double time, dmb_caller_question *ask)
+{
+    memset(ask, 0, sizeof *ask);
+    ask->force = sim->scene->forces + i;
+    ask->time = time;
+    ask->accepted = sim->now.force_state + ask->force->state;
+    ask->trial = sim->trial.force_state + ask->force->state;
+    ask->spare = sim->force_spare;
+}
+
 static int32_t assemble_force(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     argument a[DMB_CONSTRAINT_PLACES];
     dmb_caller_question ask;
     dmb_caller_answer to;
-    memset(&ask, 0, sizeof ask);
-    ask.force = sim->scene->forces + i;
-    ask.time = evaluation->time;
+    begin(sim, i, evaluation->time, &ask);
+    ask.step = evaluation->dynamic ? evaluation->step : 0.0;
     read_arguments(sim, &sim->trial, evaluation->dynamic, a, &ask);
     int32_t status = dmb_caller_ask(&ask, evaluation->tangent, &to);
     if (status < 0) return status;
@@ -318,11 +330,20 @@ int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force)
     argument a[DMB_CONSTRAINT_PLACES];
     dmb_caller_question ask;
     dmb_message owner;
-    memset(&ask, 0, sizeof ask);
-    ask.force = sim->scene->forces + force;
-    ask.time = sim->clock->time;
+    begin(sim, force, sim->clock->time, &ask);
     read_arguments(sim, &sim->now, 1, a, &ask);
     if (!(ask.force->provides & DMB_PROVIDES_TANGENT)) return DMB_OK;
     (void)dmb_part_text(&owner, "force", force, ask.force->name, 24);
-    return dmb_caller_compare(&ask, owner.text, &sim->message);
+    const int32_t status = dmb_caller_compare(&ask, owner.text, &sim->message);
+    ask.step = DMB_STEP_CHECK;
+    return status < 0 || ask.force->states == 0 ? status : dmb_caller_compare(&ask, owner.text, &sim->message);
+}
+
+void dmb_caller_laws_accept(const dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->force_count; i++) {
+        const dmb_scene_force *force = sim->scene->forces + i;
+        if (force->accept != NULL)
+            force->accept(force->context, sim->clock->time, 0, sim->now.force_state + force->state);
+    }
 }

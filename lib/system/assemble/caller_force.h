@@ -6,7 +6,10 @@
  *     residual -L^T w,   K = -L^T (A L + B dV/dq) - d(L^T) w,   C = -L^T B L,   A = dw/dz, B = dw/dV
  *
  * z the displacements in the same axes. Derivatives given in world axes, f = R w by dx = R z, v = R V, are rotated: A
- * = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R. */
+ * = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R.
+ *
+ * A law with a state s has w(z, V, s) and s = S(s_0, z, V, h) of the accepted state s_0: A and B are total derivatives.
+ */
 #ifndef DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 #define DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 
@@ -18,6 +21,8 @@ int32_t dmb_assemble_caller_forces(dmb_evaluation *evaluation);
 int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force);
 /* "force 2 (magnet)", the force whose callback failed in the last evaluation; clears the record. 0: none failed. */
 int dmb_failed_force(dmb_sim *sim, dmb_message *text);
+/* Tells the accept functions of the callers' laws the accepted state. */
+void dmb_caller_laws_accept(const dmb_sim *sim);
 /* [J] Sum of the potentials given by the callbacks. */
 double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 
@@ -32,6 +37,9 @@ typedef struct dmb_caller_question {
     const dmb_scene_force *force;
     double time;
     double R[DMB_CONSTRAINT_PLACES][9], x[DMB_CONSTRAINT_PLACES][3], v[DMB_CONSTRAINT_PLACES][6];
+    const double *accepted; /* state of the law at the last accepted time */
+    double *trial, *spare;  /* its state now is written there; of calls at arguments nearby here */
+    double step;            /* [s] between the two times */
 } dmb_caller_question;
 
 typedef struct dmb_caller_values {

@@ -14,10 +14,18 @@ static const double places_of_weight[4] = {-2.0, -1.0, 1.0, 2.0};
 
 /* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
-/* tangent: shape (2, 6 count, 6 count), or NULL */
-static int32_t call(const dmb_caller_question *ask, dmb_caller_values *to, double *tangent)
+/* Adds the magnitudes of the state. */
+static double size_of_state(const dmb_scene_force *force, const double *state, double sum)
+{
+    for (uint32_t i = 0; i < force->states; i++) sum += fabs(state[i]);
+    return sum;
+}
+
+/* tangent: shape (2, 6 count, 6 count), or NULL; state: of the law, written */
+static int32_t call(const dmb_caller_question *ask, dmb_caller_values *to, double *tangent, double *state)
 {
     const dmb_scene_force *force = ask->force;
+    const dmb_law_memory memory = {ask->accepted, state, ask->step};
     double poses[DMB_CONSTRAINT_PLACES][12], sum = 0.0;
     memset(to->f, 0, sizeof to->f);
     to->potential = 0.0;
@@ -25,12 +33,14 @@ static int32_t call(const dmb_caller_question *ask, dmb_caller_values *to, doubl
         dmb_vec3_copy(ask->x[i], poses[i]);
         dmb_mat3_copy(ask->R[i], poses[i] + 3);
     }
+    if (force->states > 0) memcpy(state, ask->accepted, force->states * sizeof *state);
     if (force->callback(force->context, ask->time, force->count, (const double(*)[12])poses, (const double(*)[6])ask->v,
-                        to->f, tangent, &to->potential) != 0)
+                        to->f, tangent, &to->potential, &memory) != 0)
         return DMB_ERR_CALLBACK;
     for (uint32_t i = 0; i < force->count; i++)
         for (int k = 0; k < 6; k++) sum += fabs(to->f[i][k]);
     if (!(force->provides & DMB_PROVIDES_POTENTIAL)) to->potential = 0.0;
+    sum = size_of_state(force, state, sum);
     return sum + fabs(to->potential) <= DMB_CALLBACK_MAX ? DMB_OK : DMB_ERR_CALLBACK; /* nor is a NaN */
 }
 
@@ -73,7 +83,7 @@ static int32_t tangent_by_differences(const dmb_caller_question *ask, dmb_caller
                 moved.v[i][column % 6] += places_of_weight[k] * step;
             else
                 displace(&moved, i, column % 6, places_of_weight[k] * step);
-            if (call(&moved, &there, NULL) < 0) return DMB_ERR_CALLBACK;
+            if (call(&moved, &there, NULL, ask->spare) < 0) return DMB_ERR_CALLBACK;
             for (uint32_t r = 0; r < n; r++)
                 (by_speed ? B : A)[r][column] += first_weight[k] * there.f[r / 6][r % 6] / step;
         }
@@ -87,7 +97,7 @@ static int32_t given_tangent(const dmb_caller_question *ask, dmb_caller_answer *
     const uint32_t n = 6 * ask->force->count;
     double sum = 0.0;
     memset(to->given, 0, sizeof to->given);
-    if (call(ask, &to->at, to->given) < 0) return DMB_ERR_CALLBACK;
+    if (call(ask, &to->at, to->given, ask->trial) < 0) return DMB_ERR_CALLBACK;
     for (uint32_t k = 0; k < 2 * n * n; k++) sum += fabs(to->given[k]);
     for (uint32_t k = 2 * n * n; k-- > 0;) {
         const uint32_t half = k / (n * n), r = k % (n * n) / n, c = k % n;
@@ -99,7 +109,7 @@ static int32_t given_tangent(const dmb_caller_question *ask, dmb_caller_answer *
 int32_t dmb_caller_ask(const dmb_caller_question *ask, int tangent, dmb_caller_answer *to)
 {
     if (tangent && ask->force->provides & DMB_PROVIDES_TANGENT) return given_tangent(ask, to);
-    const int32_t status = call(ask, &to->at, NULL);
+    const int32_t status = call(ask, &to->at, NULL, ask->trial);
     return status < 0 || !tangent ? status : tangent_by_differences(ask, to->A, to->B);
 }
 
@@ -129,7 +139,7 @@ int32_t dmb_caller_potential_rate(const dmb_caller_question *ask, double *rate)
             dmb_mat3_mul(body ? ask->R[i] : Q, body ? Q : ask->R[i], R);
             dmb_mat3_copy(R, moved.R[i]);
         }
-        if (call(&moved, &there, NULL) < 0) return DMB_ERR_CALLBACK;
+        if (call(&moved, &there, NULL, ask->spare) < 0) return DMB_ERR_CALLBACK;
         *rate += first_weight[k] * there.potential / h;
     }
     return DMB_OK;

@@ -112,8 +112,10 @@ static void add_loads(rig *s, const parts *p)
 
 /* Some smooth function of all that it is told, different in each component. */
 static int32_t any_force(void *context, double time, uint32_t count, const double (*poses)[12],
-                         const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+                         const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                         const dmb_law_memory *memory)
 {
+    (void)memory;
     const uint32_t joint = *(const uint32_t *)context; /* number of the argument that is one, or more than there are */
     (void)time, (void)tangent, (void)potential;
     for (uint32_t i = 0; i < count; i++)
