@@ -14,6 +14,7 @@ import unittest
 import weakref
 
 import drillmbd as mbd
+from drillmbd.scene.fields import words_of
 
 LAYOUT = pathlib.Path(__file__).resolve().parents[2] / "tests" / "abi" / "layout.txt"
 
@@ -884,6 +885,35 @@ class ForceTest(unittest.TestCase):
             for a, b in zip(known.pose(mbd.station(ball)).position, found.pose(mbd.station(other)).position):
                 self.assertAlmostEqual(a, b, 9)
             self.assertAlmostEqual(known.energy().strain, found.energy().strain, 8)
+
+    def test_friction_with_a_state(self):
+        stiffness, told = 1e4, []
+
+        def bristles(at, state, step):
+            if math.isinf(step):
+                raise ValueError("no statics with slip here")
+            x = state[0] + 0.5 * step * (at.slip_before[0] + at.slip[0])
+            most = at.mu_dynamic / stiffness
+            z, inside = max(-most, min(most, x)), abs(x) < most
+            q = stiffness * z
+            by_slip = [-at.normal_force * stiffness * 0.5 * step * inside, 0.0, 0.0, 0.0]
+            return [-at.normal_force * q, 0.0], by_slip, [-q, 0.0], [z]
+
+        ends = []
+        for own in (True, False):
+            model = mbd.Model()
+            law = {"friction": bristles, "friction_state_count": 1, "friction_accept": lambda *what: told.append(what)}
+            model.add_wall(mu_static=0.3, mu_dynamic=0.3, bristle_stiffness=stiffness,
+                           **(law if own else {"friction_law": mbd.FRICTION_BRISTLE}))
+            body = model.add_body(mass=10.0, contact_diameter=0.074, position=[1.0, 0.0, -0.01001], velocity=[0.2, 0, 0, 0, 0, 0],
+                                  free_mask=mbd.FREE_X | mbd.FREE_Z)
+            model.compile()
+            with model.sim() as sim:
+                sim.steps(1e-3, 100)
+                ends.append(sim.pose(mbd.station(body)).position[0])
+        self.assertAlmostEqual(ends[0], ends[1], 12)
+        self.assertTrue(0.0 < max(what[2][0] for what in told) <= 0.3 / stiffness)
+        self.assertNotIn("callback", words_of(mbd.FrictionLaw))
 
     def test_law_with_a_state(self):
         told, k, limit = [], 2000.0, 30.0

@@ -164,6 +164,21 @@ DMB_API int32_t dmb_model_add_time_function(dmb_model *model, const dmb_segment 
 DMB_API int32_t dmb_model_add_ramp(dmb_model *model, double from, double to, double start, double end,
                                    dmb_id *time_function);
 
+/* ---- Laws of the caller with a state ---------------------------------------------------------------------------- */
+/* Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots,
+ * hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the
+ * motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx. */
+typedef struct dmb_law_memory {
+    const double *accepted; /* at the last accepted time, shape (state_count) */
+    double *trial;          /* at `time`, written, shape (state_count); `accepted` when called */
+    double step;            /* [s] between them. 0: no time passes, as in statics, where the state follows the path of
+                               load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses
+                               read damping and stiffness from short steps: use the trapezoidal rule for rates */
+} dmb_law_memory;
+/* Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact
+ * point of the wall; 0 of a force. */
+typedef void (*dmb_accept_fn)(void *context, double time, uint32_t number, const double *state);
+
 /* ---- Hole wall --------------------------------------------------------------------------------------------------- */
 enum {
     DMB_NORMAL_NONE = -1,               /* no contact */
@@ -179,8 +194,24 @@ enum {
     DMB_FRICTION_COULOMB = 0,  /* mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2) */
     DMB_FRICTION_AMBROSIO = 1, /* 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond */
     DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed; its maximum is mu_static */
-    DMB_FRICTION_BRISTLE = 3   /* elastic bristle that sticks; breaks away at mu_static, one step late (order 1) */
+    DMB_FRICTION_BRISTLE = 3,  /* elastic bristle that sticks; breaks away at mu_static, one step late (order 1) */
+    DMB_FRICTION_CALLBACK = 4  /* friction_callback */
 };
+
+/* Frozen. Arguments of a friction law of the caller; components along the hole and around it. */
+typedef struct dmb_friction_at {
+    double normal_force;          /* [N] >= 0 */
+    double slip[2];               /* [m/s] of the pipe over the wall */
+    double slip_before[2];        /* [m/s] at the last accepted time */
+    double mu_static, mu_dynamic; /* [-] of the wall or section, times inputs; a law may leave them aside */
+} dmb_friction_at;
+/* The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by
+ * slip and normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the
+ * point and 0 whenever it begins to touch. memory->step = INFINITY asks for sliding on and on at this slip, from any
+ * state: statics that slip, linear analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the
+ * thread of the call. */
+typedef int32_t (*dmb_friction_fn)(void *context, const dmb_friction_at *at, double force[2], double by_slip[4],
+                                   double by_normal[2], const dmb_law_memory *memory);
 
 typedef struct dmb_wall_def {
     uint32_t struct_size;
@@ -219,14 +250,17 @@ typedef struct dmb_wall_def {
                                  most 2^18 stations. 0 (default): the hole stays as described */
     double cut_start;         /* [m] measured depth of the first of these stations and */
     double cut_end;           /* [m] of the last one, >= three spacings apart: beyond, nothing is cut; default 0 */
-    uint32_t friction_table_count; /* [-] points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first
-                                coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections
-                                of the hole give mu_dynamic alone, and the table acts in proportion */
-    uint32_t reserved;
+    uint32_t friction_table_count;  /* [-] points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first
+                                 coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections
+                                 of the hole give mu_dynamic alone, and the table acts in proportion */
+    uint32_t friction_state_count;  /* [-] numbers of its state at a contact point, 0 .. 16; default 0 */
     double friction_table_speed[8]; /* [m/s] of sliding, from 0, strictly increasing, shape (friction_table_count);
                                  static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic */
     double friction_table_mu[8]; /* [-] coefficients there, >= 0, the last one > 0; straight between, constant beyond,
                               shape (friction_table_count) */
+    dmb_friction_fn friction_callback; /* of DMB_FRICTION_CALLBACK, required */
+    void *friction_context;
+    dmb_accept_fn friction_accept; /* for each contact point; NULL (default): none */
 } dmb_wall_def;
 DMB_SIZED_STRUCT(dmb_wall_def)
 /* Adds the hole. One hole a model; wall may be NULL. */
@@ -652,20 +686,6 @@ DMB_SIZED_STRUCT(dmb_spring_def)
  * (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole).
  * Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does. */
 DMB_API int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def, dmb_id *spring);
-
-/* Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots,
- * hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the
- * motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx. */
-typedef struct dmb_law_memory {
-    const double *accepted; /* at the last accepted time, shape (state_count) */
-    double *trial;          /* at `time`, written, shape (state_count); `accepted` when called */
-    double step;            /* [s] between them. 0: no time passes, as in statics, where the state follows the path of
-                               load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses
-                               read damping and stiffness from short steps: use the trapezoidal rule for rates */
-} dmb_law_memory;
-/* Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact
- * point of the wall; 0 of a force. */
-typedef void (*dmb_accept_fn)(void *context, double time, uint32_t number, const double *state);
 
 /* The caller's force on up to four places or joint coordinates by their poses, velocities and time, in the axes of
  * `frame`. poses[i]: position [m] in the world (3), rotation matrix to the world, row-major (9); velocities[i] [m/s,

@@ -60,7 +60,7 @@
     FIELD(T, 4, direction, "-", FINITE, {1.0, 0.0, 0.0}) \
     FIELD(T, 5, diameter, "m", WITHIN(DMB_LENGTH_MIN, DMB_LENGTH_MAX), 0.094) \
     FIELD(T, 6, normal_law, "", WITHIN(DMB_NORMAL_NONE, DMB_NORMAL_IMPACT), DMB_NORMAL_EXACT) \
-    FIELD(T, 7, friction_law, "", WITHIN(DMB_FRICTION_NONE, DMB_FRICTION_BRISTLE), DMB_FRICTION_STRIBECK) \
+    FIELD(T, 7, friction_law, "", WITHIN(DMB_FRICTION_NONE, DMB_FRICTION_CALLBACK), DMB_FRICTION_STRIBECK) \
     FIELD(T, 8, stiffness, "N/m^(n+1)", WITHIN(DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX), 1e7) \
     FIELD(T, 9, exponent, "-", WITHIN(1.0, 3.0), 1.0) \
     FIELD(T, 10, restitution, "-", WITHIN(0.0, 1.0), 0.4) \
@@ -80,7 +80,11 @@
     FIELD(T, 24, cut_end, "m", WITHIN(-DMB_POSITION_MAX, DMB_POSITION_MAX), 0.0) \
     FIELD(T, 25, friction_table_count, "-", ZERO_OR(2, DMB_FRICTION_POINTS), 0) \
     ARRAY(T, 26, friction_table_speed, friction_table_count, 1, "m/s", WITHIN(0.0, DMB_SPEED_MAX), {0.0}) \
-    ARRAY(T, 27, friction_table_mu, friction_table_count, 1, "-", WITHIN(0.0, DMB_NUMBER_MAX), {0.0})
+    ARRAY(T, 27, friction_table_mu, friction_table_count, 1, "-", WITHIN(0.0, DMB_NUMBER_MAX), {0.0}) \
+    FIELD(T, 28, friction_state_count, "-", WITHIN(0, DMB_FRICTION_STATES), 0) \
+    FIELD(T, 29, friction_callback, "", ANY, NULL) \
+    FIELD(T, 30, friction_context, "", ANY, NULL) \
+    FIELD(T, 31, friction_accept, "", ANY, NULL)
 
 #define DMB_HOLE_SECTION_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, shape, "", WITHIN(DMB_HOLE_STEP, DMB_HOLE_LINE), DMB_HOLE_STEP) \
@@ -366,7 +370,7 @@
     X(13, dmb_drive_def, "drive", DMB_PART_DRIVE, 80, DMB_DRIVE_FIELDS) \
     X(14, dmb_load_def, "load", DMB_PART_LOAD, 88, DMB_LOAD_FIELDS) \
     X(15, dmb_spring_def, "spring", DMB_PART_SPRING, 184, DMB_SPRING_FIELDS) \
-    X(16, dmb_force_def, "force", DMB_PART_FORCE, 296, DMB_FORCE_FIELDS) \
+    X(16, dmb_force_def, "force", DMB_PART_FORCE, 280, DMB_FORCE_FIELDS) \
     X(17, dmb_stuck_def, "stuck", DMB_PART_STUCK, 128, DMB_STUCK_FIELDS) \
     X(18, dmb_sub_def, "sub", 0, 56, DMB_SUB_FIELDS) \
     X(19, dmb_input_def, "input", DMB_PART_INPUT, 88, DMB_INPUT_FIELDS) \

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "force/time_function.h"
+
 /* ---- Maximum of the smoothed law (eq:friction.peak) --------------------------------------------------------------
  * 1/kappa = max over s of r E, r = sqrt(1 - v_eps^2/s^2). For E = exp(-s/v_s) it is where s^3 - v_eps^2 s = v_eps^2
  * v_s; for a falling linear segment E = a + b s of a table it is where v_eps^2 (a + b s) + b s (s^2 - v_eps^2) = 0.
@@ -72,4 +74,27 @@ dmb_friction_law dmb_friction_law_of(dmb_friction_law law)
     law.peak_bump = (kappa - 1.0) * kappa * kappa * kappa;
     law.peak_level = kappa * kappa * kappa * kappa;
     return law;
+}
+
+/* ---- Law of the caller ------------------------------------------------------------------------------------------- */
+
+static double size_of(const double *x, uint32_t count)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < count; i++) sum += fabs(x[i]);
+    return sum;
+}
+
+int32_t dmb_friction_call(const dmb_friction_law *law, const dmb_friction_at *at, const dmb_law_memory *memory,
+                          dmb_friction_result *to)
+{
+    static const dmb_friction_result nothing = {{0.0}, {0.0}, {0.0}};
+    *to = nothing;
+    for (uint32_t i = 0; i < law->states; i++) memory->trial[i] = memory->accepted[i];
+    const int32_t stopped = law->callback(law->context, at, to->force, to->by_slip, to->by_normal, memory);
+    const double size = size_of(to->force, 2) + size_of(to->by_slip, 4) + size_of(to->by_normal, 2) +
+                        size_of(memory->trial, law->states);
+    if (stopped == 0 && size <= DMB_CALLBACK_MAX) return DMB_OK; /* nor is a NaN */
+    to->force[0] = to->force[1] = (double)NAN;
+    return DMB_ERR_CALLBACK;
 }

@@ -5,13 +5,16 @@
 #ifndef DMB_FORCE_FRICTION_LAW_H
 #define DMB_FORCE_FRICTION_LAW_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include "drillmbd/scene.h"
 #include "math/real.h"
 
-enum { DMB_FRICTION_POINTS = 8 }; /* [-] of a table, as of dmb_wall_def */
+enum { DMB_FRICTION_POINTS = 8, DMB_FRICTION_STATES = 16 }; /* [-] of a table, of a state, as of dmb_wall_def */
+/* Kind of the caller's law in sliding on and on, which has no memory (dmb_sliding_law). */
+enum { DMB_FRICTION_CALLBACK_SLIDING = 1000 };
 
 typedef struct dmb_friction_law {
     int32_t kind;              /* DMB_FRICTION_... */
@@ -27,17 +30,23 @@ typedef struct dmb_friction_law {
     const double
         *table_mu; /* [-] coefficients there, shape (points); scaled by mu_dynamic over the last one, which is > 0 */
     double peak_bump, peak_level; /* [-] A and B of eq:friction.peak, set by dmb_friction_law_of; 0: no correction */
+    dmb_friction_fn callback;     /* of CALLBACK */
+    dmb_accept_fn accept;         /* NULL: none */
+    void *context;
+    uint32_t states; /* [-] numbers of the state of a contact point: 2 of BRISTLE; 0: no memory */
+    uint32_t reserved;
 } dmb_friction_law;
 
 /* A law with coefficients of the place, which differ from lane to lane in a hole of sections. */
 typedef struct dmb_local_friction {
     const dmb_friction_law *law;    /* all other constants */
     dmb_real mu_static, mu_dynamic; /* [-] */
+    int32_t *failed;                /* raised to 1 where the caller's function fails; NULL: nobody asks */
 } dmb_local_friction;
 
 static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *law)
 {
-    const dmb_local_friction local = {law, dmb_real_of(law->mu_static), dmb_real_of(law->mu_dynamic)};
+    const dmb_local_friction local = {law, dmb_real_of(law->mu_static), dmb_real_of(law->mu_dynamic), NULL};
     return local;
 }
 
@@ -50,8 +59,23 @@ dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
  * new law with memory also needs its state in lib/sim/sim.h and its force beside dmb_friction_bristle. */
 static inline int dmb_friction_has_memory(const dmb_friction_law *law)
 {
-    return law->kind == DMB_FRICTION_BRISTLE;
+    return law->kind == DMB_FRICTION_BRISTLE || law->kind == DMB_FRICTION_CALLBACK;
 }
+
+/* 1: the law is the caller's. */
+static inline int dmb_friction_is_called(const dmb_friction_law *law)
+{
+    return law->kind == DMB_FRICTION_CALLBACK || law->kind == DMB_FRICTION_CALLBACK_SLIDING;
+}
+
+/* Results of the caller's law [N, N s/m, -]. */
+typedef struct dmb_friction_result {
+    double force[2], by_slip[4], by_normal[2];
+} dmb_friction_result;
+
+/* One call of the caller's law. If it fails, DMB_ERR_CALLBACK and NaN. */
+int32_t dmb_friction_call(const dmb_friction_law *law, const dmb_friction_at *at, const dmb_law_memory *memory,
+                          dmb_friction_result *to);
 
 /* 1: the kind has a static coefficient, or a table of the coefficient over the speed. */
 static inline int dmb_friction_has_static(int32_t kind)
@@ -237,9 +261,59 @@ static inline void dmb_friction_smoothed(const dmb_local_friction *local, dmb_re
     if (law->kind != DMB_FRICTION_COULOMB && law->peak_level > 0.0) dmb_friction_reach_static(local, speed, s, f, g);
 }
 
+/* Arguments of the caller's law in a lane. */
+static inline dmb_friction_at dmb_friction_arguments(const dmb_local_friction *local, const dmb_real *N,
+                                                     const dmb_real v[2], const dmb_real v_old[2], int lane)
+{
+    const dmb_friction_at at = {.normal_force = dmb_real_lane(N, lane) > 0.0 ? dmb_real_lane(N, lane) : 0.0,
+                                .slip = {dmb_real_lane(v, lane), dmb_real_lane(v + 1, lane)},
+                                .slip_before = {dmb_real_lane(v_old, lane), dmb_real_lane(v_old + 1, lane)},
+                                .mu_static = dmb_real_lane(&local->mu_static, lane),
+                                .mu_dynamic = dmb_real_lane(&local->mu_dynamic, lane)};
+    return at;
+}
+
+/* The caller's law in the lanes of `lanes`, one by one; 0 in others. at, memory: of each lane. */
+static inline void dmb_friction_called(const dmb_local_friction *local, const dmb_friction_at *at,
+                                       const dmb_law_memory *memory, uint32_t lanes, dmb_real F[2], dmb_real *dF_dv,
+                                       dmb_real dF_dN[2])
+{
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        dmb_friction_result of = {{0.0}, {0.0}, {0.0}};
+        if ((lanes >> l & 1) != 0 && dmb_friction_call(local->law, at + l, memory + l, &of) < 0 &&
+            local->failed != NULL)
+            *local->failed = 1;
+        for (int i = 0; i < 2; i++) dmb_real_set_lane(F + i, l, of.force[i]);
+        for (int i = 0; i < 2; i++) dmb_real_set_lane(dF_dN + i, l, of.by_normal[i]);
+        for (int i = 0; dF_dv != NULL && i < 4; i++) dmb_real_set_lane(dF_dv + i, l, of.by_slip[i]);
+    }
+}
+
+/* The caller's law in sliding on and on. */
+static inline void dmb_friction_slide_called(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
+                                             dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2])
+{
+    static const double none[DMB_FRICTION_STATES] = {0.0};
+    double unused[DMB_FRICTION_STATES];
+    const dmb_law_memory memory = {none, unused, (double)INFINITY};
+    dmb_law_memory memories[DMB_REAL_LANES];
+    dmb_friction_at at[DMB_REAL_LANES];
+    uint32_t lanes = 0;
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        at[l] = dmb_friction_arguments(local, &N, v, v, l);
+        memories[l] = memory;
+        lanes |= (at[l].normal_force > 0.0 ? 1u : 0u) << l;
+    }
+    dmb_friction_called(local, at, memories, lanes, F, dF_dv, dF_dN);
+}
+
 static inline void dmb_friction_smooth_at(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
                                           dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2])
 {
+    if (dmb_friction_is_called(local->law)) {
+        dmb_friction_slide_called(local, N, v, F, dF_dv, dF_dN);
+        return;
+    }
     const dmb_real speed = dmb_friction_norm(v[0], v[1]);
     dmb_real f = dmb_real_of(0.0), g = dmb_real_of(0.0);
     if (local->law->kind == DMB_FRICTION_AMBROSIO)

@@ -331,6 +331,10 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
 {
     const dmb_real zero = dmb_real_of(0.0), mu = c->friction.mu_dynamic;
     const dmb_real N = -force->F[0], limit = N * mu, F = dmb_friction_norm(force->F[1], force->F[2]);
+    if (dmb_friction_is_called(c->friction.law)) { /* which may leave the coefficients aside */
+        by_place[0] = by_place[1] = zero;
+        return;
+    }
     if (memory) {
         const dmb_mask slides = dmb_mask_less(zero, limit) & dmb_mask_at_most((1.0 - 1e-9) * limit, F);
         const dmb_real divisor = dmb_real_select(slides, mu, dmb_real_of(1.0));
@@ -338,7 +342,7 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
             by_place[k] = dmb_real_select(slides, force->F[1 + k] / divisor * c->mu_dynamic_slope, zero);
         return;
     }
-    const dmb_local_friction slopes = {c->friction.law, c->mu_static_slope, c->mu_dynamic_slope};
+    const dmb_local_friction slopes = {c->friction.law, c->mu_static_slope, c->mu_dynamic_slope, NULL};
     dmb_real by_normal[2];
     dmb_friction_smooth_at(&slopes, N, f->speed + 1, by_place, NULL, by_normal);
 }

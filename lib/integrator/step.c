@@ -158,6 +158,7 @@ void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_ste
 int dmb_stepping_ends(dmb_sim *sim)
 {
     if (sim->scene->force_count > 0) dmb_caller_laws_accept(sim);
+    dmb_friction_accept(sim);
     return sim->on_step != NULL && sim->on_step(sim->on_step_context, sim) != 0;
 }
 

@@ -83,6 +83,7 @@ typedef struct dmb_axial_torsional_node_args {
     double slip[2];                        /* [m/s, rad/s] in statics */
     const double *now_bristle, *now_slip;  /* of the last accepted instant, shape (count, 2); and: */
     const int32_t *now_sticks;
+    int32_t *failed;                         /* raised to 1 where the caller's law fails */
     double *bristle, *trial_slip, *friction; /* of the trial, written, shape (count, 2); and: */
     int32_t *sticks;
     double *residual, *scale; /* added to, shape (count, 2) */
@@ -135,9 +136,12 @@ enum { DMB_SITE_COARSE = 1, DMB_SITE_PLASTIC = 2 };
 /* Contact points at the wall. Pointers are to the scene's first contact point, node, row or block. */
 typedef struct dmb_wall_args {
     uint32_t count;   /* sites */
-    int32_t bristles; /* 1: the friction law has bristles; otherwise their fields are empty */
+    int32_t bristles; /* 1: the friction law has a memory; otherwise its fields are empty */
     int32_t touches;  /* 1: the damping of the wall jumps at touch; else the fields of touch are empty */
     int32_t bounces; /* 1: contact points have mean forces in the step: those with a mode, and coarse ones that touch */
+    uint32_t states; /* numbers of the state of a contact point there */
+    int32_t called;  /* 1: it is that of the caller's law */
+    int32_t *failed; /* raised to 1 where the caller's law fails */
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;
@@ -191,7 +195,7 @@ static inline void dmb_site_fields_skip(const dmb_wall_args *args, uint32_t coun
     fields->segment += count;
     if (args->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)count;
     if (!args->bristles) return;
-    fields->bristle += 2 * (size_t)count;
+    fields->bristle += args->states * (size_t)count;
     fields->sticks += count;
 }
 /* Advances the fields of contact points by that many. */

@@ -159,6 +159,7 @@ static inline void find_side_force(const dmb_axial_torsional_node_args *args, wa
 static inline dmb_local_friction law_at(const dmb_axial_torsional_node_args *args, const wall_node_group *g)
 {
     dmb_local_friction local = dmb_local_friction_of(args->friction_law);
+    local.failed = args->failed;
     for (int l = 0; l < DMB_REAL_LANES && args->hole->pieces > 0; l++) {
         double mu_static, mu_dynamic;
         dmb_friction_coefficients_at(args->hole, dmb_real_lane(&g->depth, l), &mu_static, &mu_dynamic);
@@ -189,6 +190,25 @@ static inline void bristle_friction(const dmb_axial_torsional_node_args *args, c
     for (uint32_t l = 0; l < g->node.used; l++) args->sticks[g->node.first + l] = (int32_t)(bits >> l & 1);
 }
 
+DMB_LANES_CALL void called_friction(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
+                                    const dmb_local_friction *law, dmb_real N, const dmb_real v[2],
+                                    wall_friction *friction)
+{
+    dmb_real v_old[2];
+    dmb_law_memory memory[DMB_REAL_LANES];
+    dmb_friction_at at[DMB_REAL_LANES];
+    uint32_t lanes = 0;
+    load(args->now_slip, 2, 2, &g->node, 0, v_old);
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        const size_t first = args->friction_law->states * (size_t)place_at(&g->node, (uint32_t)l);
+        const dmb_law_memory of = {args->now_bristle + first, args->bristle + first, args->step};
+        memory[l] = of;
+        at[l] = dmb_friction_arguments(law, &N, v, v_old, l);
+        lanes |= ((uint32_t)l < g->node.used ? 1u : 0u) << l;
+    }
+    dmb_friction_called(law, at, memory, lanes, friction->F, friction->dv, friction->dN);
+}
+
 /* C -= factor dF/dv, by the speeds along the hole and of rotation; stores dF/dT for the tangent of the elements. */
 static inline void add_friction_tangent(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
                                         const side_force *side, const wall_friction *friction, dmb_real C[4])
@@ -217,7 +237,9 @@ static inline void add_node_friction(dmb_axial_torsional_node_args *args, wall_n
     if (args->friction_law == NULL) return;
     const dmb_local_friction law = law_at(args, g);
     find_side_force(args, g, &side);
-    if (args->dynamic && dmb_friction_has_memory(args->friction_law))
+    if (args->dynamic && args->friction_law->kind == DMB_FRICTION_CALLBACK)
+        called_friction(args, g, &law, side.N, v, &friction);
+    else if (args->dynamic && dmb_friction_has_memory(args->friction_law))
         bristle_friction(args, g, &law, side.N, v, &friction);
     else
         dmb_friction_smooth_at(&law, side.N, v, friction.F, friction.dv, friction.dN);

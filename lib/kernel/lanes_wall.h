@@ -53,8 +53,9 @@ static inline int has_sections(const dmb_wall_args *args)
 static inline wall_laws laws_of(const dmb_wall_args *args)
 {
     static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
-    const wall_laws laws = {dmb_local_normal_of(args->normal_law),
-                            dmb_local_friction_of(args->friction_law != NULL ? args->friction_law : &none)};
+    wall_laws laws = {dmb_local_normal_of(args->normal_law),
+                      dmb_local_friction_of(args->friction_law != NULL ? args->friction_law : &none)};
+    laws.friction.failed = args->failed;
     return laws;
 }
 
@@ -247,6 +248,22 @@ DMB_LANES_INLINE void place_sites(const dmb_wall_args *args, const wall_laws *la
     store(g->frame.speed + 1, 2, &g->site, args->trial.slip);
 }
 
+static inline int is_called(const dmb_wall_args *args)
+{
+    return args->friction_law != NULL && args->friction_law->kind == DMB_FRICTION_CALLBACK;
+}
+
+/* Without contact the state of the caller's law is 0; in contact it has written it. */
+static inline void keep_called(const dmb_wall_args *args, const wall_group *g)
+{
+    for (uint32_t l = 0; l < g->site.used; l++) {
+        const size_t s = g->site.first + l;
+        args->trial.sticks[s] = 0;
+        if ((g->touching >> l & 1) == 0)
+            memset(args->trial.bristle + args->states * s, 0, args->states * sizeof(double));
+    }
+}
+
 /* Without contact the bristle deflection is 0. */
 static inline void keep_bristles(const dmb_wall_args *args, const wall_group *g)
 {
@@ -267,6 +284,22 @@ static inline void begin_bristles(const dmb_wall_args *args, wall_group *g)
     load(args->trial.bristle, 2, 2, &g->site, 0, g->bristle);
     for (uint32_t l = 0; l < g->site.used; l++)
         g->sticking |= (args->trial.sticks[g->site.first + l] != 0 ? 1u : 0u) << l;
+}
+
+DMB_LANES_CALL void called(const dmb_wall_args *args, const wall_group *g, dmb_real N, dmb_real F[2],
+                           dmb_real by_speed[4], dmb_real by_normal[2])
+{
+    dmb_real v_old[2];
+    dmb_law_memory memory[DMB_REAL_LANES];
+    dmb_friction_at at[DMB_REAL_LANES];
+    load(args->now.slip, 2, 2, &g->site, 0, v_old);
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        const size_t first = args->states * (size_t)place_at(&g->site, (uint32_t)l);
+        const dmb_law_memory of = {args->now.bristle + first, args->trial.bristle + first, args->step};
+        memory[l] = of;
+        at[l] = dmb_friction_arguments(g->friction_law, &N, g->frame.speed + 1, v_old, l);
+    }
+    dmb_friction_called(g->friction_law, at, memory, g->touching, F, by_speed, by_normal);
 }
 
 static inline void bristles(const dmb_wall_args *args, wall_group *g, dmb_real N, dmb_real F[2], dmb_real by_speed[4],
@@ -306,7 +339,9 @@ static inline void add_friction(const dmb_wall_args *args, wall_group *g, dmb_co
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
-    if (dmb_friction_has_memory(args->friction_law) && args->dynamic)
+    if (is_called(args) && args->dynamic)
+        called(args, g, -c->F[0], F, by_speed, by_normal);
+    else if (dmb_friction_has_memory(args->friction_law) && args->dynamic)
         bristles(args, g, -c->F[0], F, by_speed, by_normal);
     else if (args->yield > 0.0 && dmb_mask_any(g->own))
         rub_at_start(args, g, -c->F[0], F, by_speed, by_normal);
@@ -625,14 +660,15 @@ DMB_LANES_INLINE void find_touching(const dmb_wall_args *args, wall_group *g)
     if (args->bounces) g->own = with_mean_force(args, g);
     g->touches = dmb_mask_less(zero, g->penetration) | dmb_mask_at_most(g->clearance, zero) | g->own;
     g->touching = dmb_mask_bits(g->touches) & lanes_used(&g->site);
-    if (args->bristles) begin_bristles(args, g);
+    if (args->bristles && !args->called) begin_bristles(args, g);
     if (g->touching == 0 && args->bounces) keep_presses(args, g, zero);
 }
 
 /* Bristles and touch history, which the next step reads. */
 static inline void keep_memory(const dmb_wall_args *args, wall_group *g)
 {
-    if (args->bristles) keep_bristles(args, g);
+    if (args->bristles && !args->called) keep_bristles(args, g);
+    if (args->bristles && args->called) keep_called(args, g);
     if (args->touches) keep_touch(args, g);
 }
 

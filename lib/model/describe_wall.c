@@ -55,6 +55,12 @@ static void check_laws(dmb_check *check, const dmb_wall_def *def)
         dmb_check_above(check, "restitution", def->restitution, 0.0); /* its mu is like 1/e */
     if (def->friction_table_count == 0 && dmb_friction_has_static(law))
         dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
+    if (check->status >= 0 && (law == DMB_FRICTION_CALLBACK) != (def->friction_callback != NULL))
+        dmb_check_fail(check, DMB_ERR_NULL, "friction_law", law,
+                       "DMB_FRICTION_CALLBACK with a friction_callback, or another law without one");
+    if (law != DMB_FRICTION_CALLBACK && def->friction_state_count != 0)
+        dmb_check_fail(check, DMB_ERR_VALUE, "friction_state_count", def->friction_state_count,
+                       "0 without friction_callback");
     if (law == DMB_FRICTION_AMBROSIO)
         dmb_check_above_field(check, "full_speed", def->full_speed, "smoothing_speed", def->smoothing_speed);
 }

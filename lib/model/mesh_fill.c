@@ -309,7 +309,11 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                   .points = (int32_t)w->friction_table_count,
                                   .table_speed =
                                       w->friction_table_speed, /* owned by the model, which outlives the scene */
-                                  .table_mu = w->friction_table_mu};
+                                  .table_mu = w->friction_table_mu,
+                                  .callback = w->friction_callback,
+                                  .accept = w->friction_accept,
+                                  .context = w->friction_context,
+                                  .states = w->friction_law == DMB_FRICTION_BRISTLE ? 2 : w->friction_state_count};
     scene->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = contact ? w->normal_law : DMB_NORMAL_NONE,
                                                            .stiffness = w->stiffness,
                                                            .exponent = w->exponent,

@@ -127,7 +127,8 @@ static int32_t has_callback(const dmb_mesh *mesh)
         for (uint32_t k = 0; k < time_function->count; ++k)
             if (time_function->segments[k].kind == DMB_SEGMENT_CALLBACK) return 1;
     }
-    return mesh->forces.count > 0 || mesh->callbacks.count > 0;
+    return mesh->forces.count > 0 || mesh->callbacks.count > 0 ||
+           mesh->model->wall.friction_law == DMB_FRICTION_CALLBACK;
 }
 
 static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)

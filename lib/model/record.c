@@ -181,6 +181,11 @@ static int32_t put_parts(writer *w, dmb_message *message)
     DMB_PUT(dmb_input_def, inputs);
     DMB_PUT(dmb_event_def, events);
     put_continued(w);
+    if (model->wall_count > 0 && model->wall.friction_law == DMB_FRICTION_CALLBACK) {
+        dmb_message_set(message, "scene record: wall: friction_callback is a function of the caller, which no record "
+                                 "holds; take another friction_law");
+        return DMB_ERR_UNSUPPORTED;
+    }
     if (model->constraints.count == 0 && model->forces.count == 0) return DMB_OK;
     dmb_message_set(message, "scene record: %s 0 is a function of the caller, which no record holds; leave it out",
                     model->forces.count > 0 ? "force" : "constraint");

@@ -89,6 +89,7 @@ static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction
         f->full_speed,   f->bristle_stiffness, f->bristle_damping};
     h = dmb_fnv_word(h, (uint32_t)n->kind);
     h = dmb_fnv_word(h, (uint32_t)f->kind);
+    if (f->kind == DMB_FRICTION_CALLBACK) h = dmb_fnv_word(h, f->states); /* its function cannot be hashed */
     for (int i = 0; i < f->points; ++i) {
         h = dmb_fnv_number(h, f->table_speed[i]);
         h = dmb_fnv_number(h, f->table_mu[i]);

@@ -199,6 +199,7 @@ static int32_t check_wall(dmb_sim *sim, const dmb_sim *from)
     if (!a->has_hole) return DMB_OK;
     if (a->normal_law.kind != b->normal_law.kind) return other(sim, "wall", 0, "normal_law");
     if (a->friction_law.kind != b->friction_law.kind) return other(sim, "wall", 0, "friction_law");
+    if (a->friction_law.states != b->friction_law.states) return other(sim, "wall", 0, "friction_state_count");
     if (memcmp(to->origin, old->origin, sizeof to->origin) != 0 ||
         memcmp(to->direction, old->direction, sizeof to->direction) != 0 || to->stations != old->stations)
         return other(sim, "wall", 0, "axis");

@@ -30,7 +30,7 @@ static void transfer_again(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32
 static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
     if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
-        DMB_COPY_SITE(site_bristle, 2);
+        DMB_COPY_SITE(site_bristle, sim->scene->friction_law.states);
         DMB_COPY_SITE(site_sticks, 1);
     }
     if (what == DMB_TRANSFER_AGAIN) {
@@ -49,7 +49,7 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
 static void transfer_axial_torsional_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
     if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
-        DMB_COPY_SITE(axial_torsional_bristle, 2);
+        DMB_COPY_SITE(axial_torsional_bristle, sim->scene->friction_law.states);
         DMB_COPY_SITE(axial_torsional_sticks, 1);
     }
     if (what == DMB_TRANSFER_ALL) DMB_COPY_SITE(axial_torsional_slip, 2);
@@ -66,16 +66,18 @@ static void begin_site(dmb_sim *sim, uint32_t s)
     memset(sim->now.site_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
     if (dmb_scene_has_touch(sim->scene))
         memset(sim->now.site_touch + DMB_TOUCH_SIZE * (size_t)s, 0, DMB_TOUCH_SIZE * sizeof(double));
+    const size_t states = sim->scene->friction_law.states;
     if (!dmb_scene_has_bristles(sim->scene)) return;
-    memset(sim->now.site_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
+    memset(sim->now.site_bristle + states * s, 0, states * sizeof(double));
     sim->now.site_sticks[s] = 0;
 }
 
 static void begin_axial_torsional_site(dmb_sim *sim, uint32_t s)
 {
     memset(sim->now.axial_torsional_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    const size_t states = sim->scene->friction_law.states;
     if (!dmb_scene_has_bristles(sim->scene)) return;
-    memset(sim->now.axial_torsional_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
+    memset(sim->now.axial_torsional_bristle + states * s, 0, states * sizeof(double));
     sim->now.axial_torsional_sticks[s] = 0;
 }
 

@@ -9,8 +9,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, pf, st, e, d, k, law, load, history, diagonal, link, backup;
-    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, fs, spare, stuck, f, ro, j, c, cluster, column, raw,
-        jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, fs, spare, zs, stuck, f, ro, j, c, cluster, column,
+        raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
 } field_counts;
 
@@ -25,8 +25,8 @@ typedef struct field_counts {
     const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
     const uint64_t stuck = (of)->stuck;                                                                             \
     const uint64_t u = (of)->u, ur = (of)->ur;                                                                      \
-    const uint64_t fs = (of)->fs, spare = (of)->spare;                                                              \
-    (void)fs, (void)spare;                                                                                          \
+    const uint64_t fs = (of)->fs, spare = (of)->spare, zs = (of)->zs;                                               \
+    (void)fs, (void)spare, (void)zs;                                                                                \
     (void)u, (void)ur, (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                    \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb, st = (of)->st;        \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
@@ -108,6 +108,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.p = scene->axial_torsional_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
+    c.zs = scene->friction_law.states;
     c.pf = scene->friction_law.kind != DMB_FRICTION_NONE ? c.p : 0;
     c.law = scene->law_count;
     c.st = dmb_scene_has_touch(scene) ? c.s : 0;

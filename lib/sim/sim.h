@@ -3,17 +3,17 @@
  * other list of these arrays (struct dmb_sim adds options, messages and handles, which are not state). Each saved field
  * names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no step may
  * read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count (contact points),
- * p = axial_torsional_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction,
- * else 0; pf = p with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u =
- * unilateral_count, ur = r where there are any, else 0; ns = n where there are contact points or any of those, else 0;
- * kd, kl, kn: see the factors; piece = most chunks of one loop (sim/chunks); k = bit_count, act = actuator_count, delay
- * = delay_count, load = load_count, force = force_count, fs, spare = force_states and the most of one force, stuck =
- * stuck_count, cut = stations at which cutters widen the hole, held = constrained_count, input = input_count, event =
- * event_count, history = history_count, chain = chain_count, f = free_rigid_count, ro = rotor_count, diagonal and link
- * = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count (constraint
- * components), column = cluster_column_count, jacobian, tangent = lengths of their storage, and for a scene with joints
- * only: raw = row_count, dense, square, full = storage of the components, block, value, pivots = of the reduced system,
- * sparse_... = of sparse components. */
+ * p = axial_torsional_site_count, e = element_count, d = drive_count, sb, pb = s, p with a law of friction that has a
+ * memory of zs numbers, else 0; pf = p with friction, else 0; law = law_count; st = s with damping that jumps at touch,
+ * else 0; u = unilateral_count, ur = r where there are any, else 0; ns = n where there are contact points or any of
+ * those, else 0; kd, kl, kn: see the factors; piece = most chunks of one loop (sim/chunks); k = bit_count, act =
+ * actuator_count, delay = delay_count, load = load_count, force = force_count, fs, spare = force_states and the most of
+ * one force, stuck = stuck_count, cut = stations at which cutters widen the hole, held = constrained_count, input =
+ * input_count, event = event_count, history = history_count, chain = chain_count, f = free_rigid_count, ro =
+ * rotor_count, diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster =
+ * cluster_count (constraint components), column = cluster_column_count, jacobian, tangent = lengths of their storage,
+ * and for a scene with joints only: raw = row_count, dense, square, full = storage of the components, block, value,
+ * pivots = of the reduced system, sparse_... = of sparse components. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -64,7 +64,8 @@ typedef struct dmb_drive_variables {
                                                    analysis/state_equation/state_equation */                          \
     X(double, site_impact_speed, s, NUMBERS)    /* [m/s] normal speed at the start of the present contact */          \
     X(double, site_slip, 2 * s, NUMBERS)        /* [m/s] along the axis and around it */                              \
-    X(double, site_bristle, 2 * sb, NUMBERS)    /* [m] bristle deflection, same directions */                         \
+    X(double, site_bristle, zs * sb, NUMBERS)   /* [m] bristle deflection, same directions; state of the caller's     \
+                                                   law */                                                             \
     X(int32_t, site_sticks, sb, FLAGS)          /* [-] 1 while the bristle law holds it */                            \
     X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */ \
     X(double, friction_slip, 2, NUMBERS)        /* [m/s, rad/s] assumed sliding speeds, axial and rotational, for     \
@@ -72,7 +73,7 @@ typedef struct dmb_drive_variables {
     X(double, axial_torsional_slip, 2 * p, NUMBERS) /* [m/s] likewise of axial-torsional nodes */                     \
     X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] assemble/nodes_axial_torsional; at jumps              \
                                                             system/assemble/ledger_work */                            \
-    X(double, axial_torsional_bristle, 2 * pb, NUMBERS) /* [m] */                                                     \
+    X(double, axial_torsional_bristle, zs * pb, NUMBERS) /* [m] */                                                    \
     X(int32_t, axial_torsional_sticks, pb, FLAGS) /* [-] */                                                           \
     /* system/assemble/drives, from time functions and velocity: */                                                   \
     X(dmb_drive_variables, drives, d, NUMBERS)  /* state of each drive: system/assemble/drives, of a state that is    \
@@ -327,10 +328,10 @@ enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 
 /* State of the equations of joints and of the reduced system at present. */
 typedef struct dmb_reduced_mode {
-    int32_t bordered;       /* 1: the last reduced system has all coordinates and multipliers as unknowns (KKT) */
-    uint32_t row;           /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
-    uint32_t force;         /* 1 + number of the caller's force that failed last; 0: none */
-    int32_t metric;         /* 1: sparse_value has factors of the present rows, for projections */
+    int32_t bordered; /* 1: the last reduced system has all coordinates and multipliers as unknowns (KKT) */
+    uint32_t row;     /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
+    uint32_t force; /* 1 + number of the caller's force that failed last, or of forces: friction of the wall; 0: none */
+    int32_t metric; /* 1: sparse_value has factors of the present rows, for projections */
     int32_t near_redundant; /* 1: some rows are near-redundant */
     double violation;       /* its violation */
     double length;          /* [m] length scale of displacements: the longest jointed chain */

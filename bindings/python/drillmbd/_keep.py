@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from ._functions import FUNCTION_DOCS
 from ._parts import Parts, closed, is_closed
 from ._record import Record
-from ._structs import ACCEPT_FN, CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
+from ._structs import ACCEPT_FN, CONSTRAINT_FN, FORCE_FN, FRICTION_FN, LOG_FN, TIME_FN, Id, Place
 from ._values import flat, real, reals, refuse_type, shown
 from .enums import ERR_IO, PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
 from .errors import MIRRORED, Error, check
@@ -159,6 +159,26 @@ class Keep:
                 return 1
 
         wrapped = FORCE_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def friction(self, function: Callable[..., Any], states: int) -> Any:
+        """The C function around a Python law of friction on the wall."""
+        def call(_context: Any, at: Any, force: Any, by_slip: Any, by_normal: Any, memory: Any) -> int:
+            try:
+                law, told = memory.contents, at.contents
+                answer = list(function(told, law.accepted[:states], law.step) if states else function(told))
+                for to, count, word in ((force, 2, "force"), (by_slip, 4, "by_slip"), (by_normal, 2, "by_normal")):
+                    for i, number in enumerate(reals(flat(answer.pop(0)), "friction", word, count)):
+                        to[i] = number
+                for i, number in enumerate(reals(flat(answer.pop(0)), "friction", "state", states) if states else ()):
+                    law.trial[i] = number
+                return 0
+            except BaseException as error:  # must not unwind through C
+                self.raised.error = error
+                return 1
+
+        wrapped = FRICTION_FN(call)
         self.references.append(wrapped)
         return wrapped
 

@@ -192,98 +192,43 @@ class EnvironmentDef(Sized):
     }
 
 
-class WallDef(WallPart, Sized):
-    c_name, about = "dmb_wall_def", "For dmb_model_add_wall."
-    struct_size: int
-    survey_count: int
-    survey: Any
-    origin: Any
-    direction: Any
-    diameter: float
-    normal_law: int
-    friction_law: int
-    stiffness: float
-    exponent: float
-    restitution: float
-    damping: float
-    impact_depth: float
-    approach_speed: float
-    mu_static: float
-    mu_dynamic: float
-    stribeck_speed: float
-    smoothing_speed: float
-    full_speed: float
-    bristle_stiffness: float
-    bristle_damping: float
-    name: bytes
-    cut_spacing: float
-    cut_start: float
-    cut_end: float
-    friction_table_count: int
-    reserved: int
-    friction_table_speed: Any
-    friction_table_mu: Any
-    if TYPE_CHECKING:
-        def __init__(self, stations: Any = ..., friction_table: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_table_count: int = ..., friction_table_speed: Iterable[float] = ..., friction_table_mu: Iterable[float] = ...) -> None: ...
+class LawMemory(Record):
+    c_name, about = "dmb_law_memory", "Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots, hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx."
+    accepted: Any
+    trial: Any
+    step: float
     _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("survey_count", c_uint32),
-        ("survey", POINTER(c_double)),
-        ("origin", c_double * 3),
-        ("direction", c_double * 3),
-        ("diameter", c_double),
-        ("normal_law", c_int32),
-        ("friction_law", c_int32),
-        ("stiffness", c_double),
-        ("exponent", c_double),
-        ("restitution", c_double),
-        ("damping", c_double),
-        ("impact_depth", c_double),
-        ("approach_speed", c_double),
-        ("mu_static", c_double),
-        ("mu_dynamic", c_double),
-        ("stribeck_speed", c_double),
-        ("smoothing_speed", c_double),
-        ("full_speed", c_double),
-        ("bristle_stiffness", c_double),
-        ("bristle_damping", c_double),
-        ("name", c_char * 24),
-        ("cut_spacing", c_double),
-        ("cut_start", c_double),
-        ("cut_end", c_double),
-        ("friction_table_count", c_uint32),
-        ("reserved", c_uint32),
-        ("friction_table_speed", c_double * 8),
-        ("friction_table_mu", c_double * 8),
+        ("accepted", POINTER(c_double)),
+        ("trial", POINTER(c_double)),
+        ("step", c_double),
     ]
     field_docs = {
-        "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
-        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
-        "origin": ("m", "start of the axis, world frame; default 0, shape (3)"),
-        "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0), shape (3)"),
-        "diameter": ("m", "of the hole, > 0; default 0.094"),
-        "normal_law": ("", "NORMAL_..., default NORMAL_EXACT"),
-        "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
-        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them"),
-        "exponent": ("-", "n, 1 .. 3; default 1"),
-        "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
-        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
-        "impact_depth": ("m", "full damping from here on, of IMPACT; default 1e-4"),
-        "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more"),
-        "mu_static": ("-", "largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks"),
-        "mu_dynamic": ("-", ">= 0; default 0.30"),
-        "stribeck_speed": ("m/s", "> 0; default 1e-2"),
-        "smoothing_speed": ("m/s", "> 0; default 1e-3"),
-        "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
-        "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
-        "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
-        "name": ("", "for messages and look-up, ends with 0; default \"\""),
-        "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
-        "cut_start": ("m", "measured depth of the first of these stations and"),
-        "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
-        "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
-        "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
-        "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
+        "accepted": ("", "at the last accepted time, shape (state_count)"),
+        "trial": ("", "at `time`, written, shape (state_count); `accepted` when called"),
+        "step": ("s", "between them. 0: no time passes, as in statics, where the state follows the path of load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses read damping and stiffness from short steps: use the trapezoidal rule for rates"),
+    }
+
+
+class FrictionAt(Record):
+    c_name, about = "dmb_friction_at", "Frozen. Arguments of a friction law of the caller; components along the hole and around it."
+    normal_force: float
+    slip: Any
+    slip_before: Any
+    mu_static: float
+    mu_dynamic: float
+    _fields_: ClassVar[Any] = [
+        ("normal_force", c_double),
+        ("slip", c_double * 2),
+        ("slip_before", c_double * 2),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+    ]
+    field_docs = {
+        "normal_force": ("N", ">= 0"),
+        "slip": ("m/s", "of the pipe over the wall"),
+        "slip_before": ("m/s", "at the last accepted time"),
+        "mu_static": ("-", "of the wall or section, times inputs; a law may leave them aside"),
+        "mu_dynamic": ("-", "of the wall or section, times inputs; a law may leave them aside"),
     }
 
 
@@ -368,23 +313,6 @@ class StringDef(Sized):
         "start_free": ("-", "set of free components at the rig end; default FREE_CYLINDRICAL"),
         "end_free": ("-", "the same at the far end; default FREE_ALL"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
-    }
-
-
-class LawMemory(Record):
-    c_name, about = "dmb_law_memory", "Frozen. State of a caller's law: hysteresis, bristles, a delay. The sim keeps it with the motion, in snapshots, hashes and transfers, and drops that of rejected steps; it begins at 0. The law computes `trial` from `accepted`, the motion and `step` alone, and its tangent with the state eliminated: dF/dx + dF/dz dz/dx."
-    accepted: Any
-    trial: Any
-    step: float
-    _fields_: ClassVar[Any] = [
-        ("accepted", POINTER(c_double)),
-        ("trial", POINTER(c_double)),
-        ("step", c_double),
-    ]
-    field_docs = {
-        "accepted": ("", "at the last accepted time, shape (state_count)"),
-        "trial": ("", "at `time`, written, shape (state_count); `accepted` when called"),
-        "step": ("s", "between them. 0: no time passes, as in statics, where the state follows the path of load steps, and after jumps: the accepted motion must give `accepted`. Linear analyses read damping and stiffness from short steps: use the trapezoidal rule for rates"),
     }
 
 
@@ -2293,12 +2221,12 @@ TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
 
 
-CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
-CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
-
-
 ACCEPT_FN = CFUNCTYPE(None, c_void_p, c_double, c_uint32, POINTER(c_double))
 ACCEPT_FN.__doc__ = "Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact point of the wall; 0 of a force."
+
+
+CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
+CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
@@ -3165,6 +3093,10 @@ ERROR_FN = CFUNCTYPE(None, c_void_p, POINTER(ErrorStruct))
 ERROR_FN.__doc__ = "Sees each failing call on a model and its sims, at its end and in its thread; may not change them."
 
 
+FRICTION_FN = CFUNCTYPE(c_int32, c_void_p, POINTER(FrictionAt), POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(LawMemory))
+FRICTION_FN.__doc__ = "The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by slip and normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the point and 0 whenever it begins to touch. memory->step = INFINITY asks for sliding on and on at this slip, from any state: statics that slip, linear analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the thread of the call."
+
+
 FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double), POINTER(LawMemory))
 FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
 
@@ -3203,6 +3135,111 @@ class ModelOptions(Sized):
         "log_context": ("", ""),
         "on_error": ("", "NULL: none"),
         "error_context": ("", ""),
+    }
+
+
+class WallDef(WallPart, Sized):
+    c_name, about = "dmb_wall_def", "For dmb_model_add_wall."
+    struct_size: int
+    survey_count: int
+    survey: Any
+    origin: Any
+    direction: Any
+    diameter: float
+    normal_law: int
+    friction_law: int
+    stiffness: float
+    exponent: float
+    restitution: float
+    damping: float
+    impact_depth: float
+    approach_speed: float
+    mu_static: float
+    mu_dynamic: float
+    stribeck_speed: float
+    smoothing_speed: float
+    full_speed: float
+    bristle_stiffness: float
+    bristle_damping: float
+    name: bytes
+    cut_spacing: float
+    cut_start: float
+    cut_end: float
+    friction_table_count: int
+    friction_state_count: int
+    friction_table_speed: Any
+    friction_table_mu: Any
+    friction_callback: Any
+    friction_context: Any
+    friction_accept: Any
+    if TYPE_CHECKING:
+        def __init__(self, stations: Any = ..., friction_table: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_table_count: int = ..., friction_state_count: int = ..., friction_table_speed: Iterable[float] = ..., friction_table_mu: Iterable[float] = ..., friction_callback: Any = ..., friction_context: Any = ..., friction_accept: Any = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("survey_count", c_uint32),
+        ("survey", POINTER(c_double)),
+        ("origin", c_double * 3),
+        ("direction", c_double * 3),
+        ("diameter", c_double),
+        ("normal_law", c_int32),
+        ("friction_law", c_int32),
+        ("stiffness", c_double),
+        ("exponent", c_double),
+        ("restitution", c_double),
+        ("damping", c_double),
+        ("impact_depth", c_double),
+        ("approach_speed", c_double),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+        ("stribeck_speed", c_double),
+        ("smoothing_speed", c_double),
+        ("full_speed", c_double),
+        ("bristle_stiffness", c_double),
+        ("bristle_damping", c_double),
+        ("name", c_char * 24),
+        ("cut_spacing", c_double),
+        ("cut_start", c_double),
+        ("cut_end", c_double),
+        ("friction_table_count", c_uint32),
+        ("friction_state_count", c_uint32),
+        ("friction_table_speed", c_double * 8),
+        ("friction_table_mu", c_double * 8),
+        ("friction_callback", FRICTION_FN),
+        ("friction_context", c_void_p),
+        ("friction_accept", ACCEPT_FN),
+    ]
+    field_docs = {
+        "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
+        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
+        "origin": ("m", "start of the axis, world frame; default 0, shape (3)"),
+        "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0), shape (3)"),
+        "diameter": ("m", "of the hole, > 0; default 0.094"),
+        "normal_law": ("", "NORMAL_..., default NORMAL_EXACT"),
+        "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them"),
+        "exponent": ("-", "n, 1 .. 3; default 1"),
+        "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
+        "impact_depth": ("m", "full damping from here on, of IMPACT; default 1e-4"),
+        "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more"),
+        "mu_static": ("-", "largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks"),
+        "mu_dynamic": ("-", ">= 0; default 0.30"),
+        "stribeck_speed": ("m/s", "> 0; default 1e-2"),
+        "smoothing_speed": ("m/s", "> 0; default 1e-3"),
+        "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
+        "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
+        "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
+        "cut_start": ("m", "measured depth of the first of these stations and"),
+        "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
+        "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
+        "friction_state_count": ("-", "numbers of its state at a contact point, 0 .. 16; default 0"),
+        "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
+        "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
+        "friction_callback": ("", "of FRICTION_CALLBACK, required"),
+        "friction_context": ("", ""),
+        "friction_accept": ("", "for each contact point; NULL (default): none"),
     }
 
 
@@ -3908,6 +3945,8 @@ STRUCTS["dmb_error"] = ErrorStruct
 STRUCTS["dmb_model_options"] = ModelOptions
 STRUCTS["dmb_environment_def"] = EnvironmentDef
 STRUCTS["dmb_segment"] = Segment
+STRUCTS["dmb_law_memory"] = LawMemory
+STRUCTS["dmb_friction_at"] = FrictionAt
 STRUCTS["dmb_wall_def"] = WallDef
 STRUCTS["dmb_hole_section"] = HoleSection
 STRUCTS["dmb_string_def"] = StringDef
@@ -3921,7 +3960,6 @@ STRUCTS["dmb_constraint_def"] = ConstraintDef
 STRUCTS["dmb_drive_def"] = DriveDef
 STRUCTS["dmb_load_def"] = LoadDef
 STRUCTS["dmb_spring_def"] = SpringDef
-STRUCTS["dmb_law_memory"] = LawMemory
 STRUCTS["dmb_force_def"] = ForceDef
 STRUCTS["dmb_stuck_def"] = StuckDef
 STRUCTS["dmb_motor"] = Motor

@@ -336,12 +336,14 @@ class FrictionLaw(IntEnum):
     AMBROSIO: 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond
     STRIBECK: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed; its maximum is mu_static
     BRISTLE: elastic bristle that sticks; breaks away at mu_static, one step late (order 1)
+    CALLBACK: friction_callback
     """
     NONE = -1
     COULOMB = 0
     AMBROSIO = 1
     STRIBECK = 2
     BRISTLE = 3
+    CALLBACK = 4
 
 
 FRICTION_NONE = FrictionLaw.NONE
@@ -349,6 +351,7 @@ FRICTION_COULOMB = FrictionLaw.COULOMB
 FRICTION_AMBROSIO = FrictionLaw.AMBROSIO
 FRICTION_STRIBECK = FrictionLaw.STRIBECK
 FRICTION_BRISTLE = FrictionLaw.BRISTLE
+FRICTION_CALLBACK = FrictionLaw.CALLBACK
 
 
 class HoleShape(IntEnum):

@@ -15,7 +15,7 @@ from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, C
                        ModelOptions, Motor, PipeDef, Place, StabiliserDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
                        SubDef, Segment, TimeFunctionId, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
-from .enums import ERR_ORDER, NAME_SIZE, SEGMENT_STEP5, PartKind, Status
+from .enums import ERR_ORDER, FRICTION_CALLBACK, NAME_SIZE, SEGMENT_STEP5, PartKind, Status
 from .errors import Error, check, in_python, last_message, status_text
 
 if TYPE_CHECKING:
@@ -148,7 +148,17 @@ class Model(Handle, ModelCalls):
 
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
         def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
-            """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
+            """Adds the hole, by a WallDef or its fields; returns its id. One hole a model. friction: a law of one's own, a
+            function of a FrictionAt that returns force, derivatives by slip (2, 2) and by normal force; with
+            friction_state_count > 0 also of the accepted state and the step [s], and the new state comes last."""
+            function, told = fields.pop("friction", None), fields.pop("friction_accept", None)
+            if function is not None or told is not None:
+                definition = struct(WallDef, definition, fields)
+                fields, states = {}, definition.friction_state_count
+                if function is not None:
+                    definition.friction_law, definition.friction_callback = FRICTION_CALLBACK, self._keep.friction(function, states)
+                if told is not None:
+                    definition.friction_accept = self._keep.accept(told, states)
             return self._add("wall", WallDef, definition, fields)
 
     @mirrors("dmb_model_add_hole_sections")

@@ -25,7 +25,10 @@ static int32_t check_wall(dmb_sim *sim)
     if (scene->hole.cuts > 0)
         return refuse(sim, "wall", "bits cut it, so that it depends on the path; take cut_spacing = 0");
     if (scene->site_count + scene->axial_torsional_site_count > 0 && dmb_scene_has_bristles(scene))
-        return refuse(sim, "wall", "friction_law = DMB_FRICTION_BRISTLE has a memory, its bristles; take another law");
+        return refuse(sim, "wall",
+                      scene->friction_law.kind == DMB_FRICTION_CALLBACK
+                          ? "friction_law = DMB_FRICTION_CALLBACK depends on the last accepted state; take another law"
+                          : "friction_law = DMB_FRICTION_BRISTLE has a memory, its bristles; take another law");
     if (depends_on_impact(scene))
         return refuse(sim, "wall",
                       "normal_law depends on the speed at which a contact began; take DMB_NORMAL_KELVIN_VOIGT or "

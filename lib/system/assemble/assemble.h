@@ -112,6 +112,10 @@ void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configu
 void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configuration *configuration,
                                     uint32_t axial_torsional_site, dmb_site_force *out);
 
+/* The caller's law of friction has failed in an evaluation, which fails with DMB_ERR_CALLBACK. */
+void dmb_friction_failed(dmb_evaluation *evaluation);
+/* Calls the accept function of the caller's law of friction for each contact point. */
+void dmb_friction_accept(const dmb_sim *sim);
 /* Friction of a finished state with the normal force and slip in `out`: present bristles (NULL if the law has none),
  * smooth laws by speed. */
 void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out);

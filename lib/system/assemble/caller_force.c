@@ -314,7 +314,10 @@ int dmb_failed_force(dmb_sim *sim, dmb_message *text)
     const uint32_t force = sim->reduced_mode->force;
     sim->reduced_mode->force = 0;
     if (force == 0) return 0;
-    (void)dmb_part_text(text, "force", force - 1, sim->scene->forces[force - 1].name, 24);
+    if (force > sim->scene->force_count)
+        dmb_message_set(text, "friction_callback of the wall");
+    else
+        (void)dmb_part_text(text, "force", force - 1, sim->scene->forces[force - 1].name, 24);
     return 1;
 }
 

@@ -135,6 +135,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     dmb_assemble_nodes(evaluation);
     if (scene->added_mass_count && evaluation->dynamic) dmb_assemble_added_masses(evaluation);
     if (scene->site_count) dmb_assemble_contacts(evaluation);
+    if (evaluation->status < 0) return evaluation->status; /* of the caller's law of friction */
     if (scene->load_count) dmb_assemble_loads(evaluation);
     if (scene->flow_count) dmb_assemble_flow(evaluation);
     if (scene->drive_count) dmb_assemble_drives(evaluation);

@@ -159,9 +159,9 @@ static void set_contact(const dmb_evaluation *evaluation, node_chunk *chunk, dmb
     args->trial_slip = sim->trial.axial_torsional_slip + 2 * site;
     args->friction = sim->trial.axial_torsional_friction + 2 * site;
     if (dmb_scene_has_bristles(scene)) {
-        args->now_bristle = sim->now.axial_torsional_bristle + 2 * site;
+        args->now_bristle = sim->now.axial_torsional_bristle + scene->friction_law.states * site;
         args->now_sticks = sim->now.axial_torsional_sticks + site;
-        args->bristle = sim->trial.axial_torsional_bristle + 2 * site;
+        args->bristle = sim->trial.axial_torsional_bristle + scene->friction_law.states * site;
         args->sticks = sim->trial.axial_torsional_sticks + site;
     }
     if (!curved || args->friction_law == NULL) return;
@@ -172,10 +172,13 @@ static void set_contact(const dmb_evaluation *evaluation, node_chunk *chunk, dmb
 
 static void assemble_chunk(dmb_evaluation *evaluation, node_chunk *chunk)
 {
+    int32_t failed = 0;
     dmb_axial_torsional_node_args args = args_of(evaluation, chunk);
+    args.failed = &failed;
     if (chunk->site != DMB_NONE) set_contact(evaluation, chunk, &args);
     const uint32_t tangents = args.by_tension != NULL ? chunk->count : 0;
     evaluation->sim->scene->kernels->axial_torsional_nodes(&args);
+    if (failed) dmb_friction_failed(evaluation);
     evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
     evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
     evaluation->power[DMB_POWER_FRICTION] = args.friction_power;

@@ -121,6 +121,8 @@ static dmb_wall_args args_of(const dmb_sim *sim)
         .hole = &scene->hole,
         .normal_law = &scene->normal_law,
         .bristles = dmb_scene_has_bristles(scene),
+        .states = scene->friction_law.states,
+        .called = scene->friction_law.kind == DMB_FRICTION_CALLBACK,
         .touches = dmb_scene_has_touch(scene),
         .row = scene->layout.row,
         .diagonal = scene->layout.diag,
@@ -149,6 +151,7 @@ typedef struct own_laws {
     dmb_normal_law soft;
     dmb_friction_law sliding, partial;
     dmb_hole hole;
+    int32_t failed; /* 1: the caller's law of friction has failed */
 } own_laws;
 
 /* Reduces the friction of contact points by the fraction `frictionless`: the coefficients of the law, and those of
@@ -177,6 +180,7 @@ static dmb_wall_args args_for(const dmb_evaluation *evaluation, own_laws *laws)
         args.normal_law = &laws->soft;
     }
     args.softer = evaluation->wall_softness > 0.0 ? evaluation->wall_softness : 1.0;
+    args.failed = &laws->failed;
     if (evaluation->steady && args.friction_law != NULL && args.bristles) {
         laws->sliding = dmb_sliding_law(args.friction_law);
         args.friction_law = &laws->sliding;
@@ -202,6 +206,7 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     own_laws laws;
+    laws.failed = 0;
     dmb_wall_args args = args_for(evaluation, &laws);
     args.rounding = evaluation->rounding;
     args.potential = evaluation->power[DMB_POWER_POTENTIAL];
@@ -213,6 +218,7 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation)
     evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
     evaluation->power[DMB_POWER_IMPACT] = args.impact;
     evaluation->power[DMB_POWER_FRICTION] = args.friction;
+    if (laws.failed) dmb_friction_failed(evaluation);
 }
 
 void dmb_site_weighted_force(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
@@ -331,7 +337,7 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     }
     if (!out->closed) return;
     const int32_t bristles = dmb_scene_has_bristles(scene);
-    dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
+    dmb_finished_friction(law, bristles ? configuration->site_bristle + scene->friction_law.states * (size_t)s : NULL,
                           bristles ? configuration->site_sticks[s] : 0, out);
 }
 
@@ -344,7 +350,8 @@ void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration
     if (bristles && !f->closed)
         dmb_finished_friction(&sliding, NULL, 0, f);
     else
-        dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
+        dmb_finished_friction(law,
+                              bristles ? configuration->site_bristle + scene->friction_law.states * (size_t)s : NULL,
                               bristles ? configuration->site_sticks[s] : 0, f);
 }
 
@@ -440,8 +447,9 @@ void dmb_contacts_forget(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (dmb_scene_has_bristles(scene)) {
-        memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
-        memset(sim->trial.axial_torsional_bristle, 0, 2 * scene->axial_torsional_site_count * sizeof(double));
+        memset(sim->trial.site_bristle, 0, scene->friction_law.states * scene->site_count * sizeof(double));
+        memset(sim->trial.axial_torsional_bristle, 0,
+               scene->friction_law.states * (size_t)scene->axial_torsional_site_count * sizeof(double));
     }
     memset(sim->trial.site_impact_speed, 0, scene->site_count * sizeof(double));
     if (dmb_scene_has_touch(scene))
@@ -452,13 +460,21 @@ void dmb_contacts_forget(dmb_sim *sim)
 #define DMB_SLIDING_BEYOND (1.0 + 1e-9)
 
 /* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding. */
-static void deflect(const dmb_friction_law *law, const double v[2], double z[2], int32_t *sticks)
+static void deflect(const dmb_friction_law *law, const double v[2], double *z, int32_t *sticks)
 {
+    static const double none[DMB_FRICTION_STATES] = {0.0};
+    const dmb_friction_at at = {1.0, {v[0], v[1]}, {v[0], v[1]}, law->mu_static, law->mu_dynamic};
     const dmb_friction_law sliding = dmb_sliding_law(law);
+    const dmb_law_memory memory = {none, z, (double)INFINITY};
+    dmb_friction_result of;
     double F[2], dv[4], dN[2];
+    *sticks = 0;
+    if (law->kind == DMB_FRICTION_CALLBACK) {
+        (void)dmb_friction_call(law, &at, &memory, &of); /* it has not failed in this state */
+        return;
+    }
     dmb_friction_smooth(&sliding, 1.0, v, F, dv, dN);
     for (int i = 0; i < 2; i++) z[i] = -DMB_SLIDING_BEYOND * F[i] / law->bristle_stiffness;
-    *sticks = 0;
 }
 
 void dmb_contacts_slide(dmb_sim *sim)
@@ -469,13 +485,13 @@ void dmb_contacts_slide(dmb_sim *sim)
         dmb_friction_law local;
         const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, s, &local);
         if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
-            deflect(law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
+            deflect(law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + law->states * (size_t)s,
                     sim->now.site_sticks + s);
     }
     for (uint32_t p = 0; p < scene->axial_torsional_site_count; p++) {
         dmb_friction_law local;
         const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, scene->site_count + p, &local);
-        deflect(law, sim->now.axial_torsional_slip + 2 * (size_t)p, sim->now.axial_torsional_bristle + 2 * (size_t)p,
-                sim->now.axial_torsional_sticks + p);
+        deflect(law, sim->now.axial_torsional_slip + 2 * (size_t)p,
+                sim->now.axial_torsional_bristle + law->states * (size_t)p, sim->now.axial_torsional_sticks + p);
     }
 }

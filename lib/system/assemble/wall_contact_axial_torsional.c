@@ -50,6 +50,7 @@ void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configurat
     const int32_t bristles = dmb_scene_has_bristles(scene);
     dmb_friction_law local;
     const dmb_friction_law *law = dmb_contact_friction_law(scene, configuration, scene->site_count + p, &local);
-    dmb_finished_friction(law, bristles ? configuration->axial_torsional_bristle + 2 * p : NULL,
-                          bristles ? configuration->axial_torsional_sticks[p] : 0, out);
+    dmb_finished_friction(
+        law, bristles ? configuration->axial_torsional_bristle + scene->friction_law.states * (size_t)p : NULL,
+        bristles ? configuration->axial_torsional_sticks[p] : 0, out);
 }

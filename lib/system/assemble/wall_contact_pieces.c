@@ -54,7 +54,7 @@ void dmb_press_sites(const dmb_sim *sim, dmb_wall_args *args)
 {
     const dmb_kernels *kernels = sim->scene->kernels;
     const uint32_t pieces = dmb_chunks_of(sim->scene->sites_in_order);
-    if (pieces == 1) {
+    if (pieces == 1 || args->called) { /* the caller's function is not called from other threads */
         kernels->walls(args);
         return;
     }

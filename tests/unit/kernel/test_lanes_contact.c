@@ -238,6 +238,7 @@ static dmb_wall_args run_of(const wall_case *c, wall_input *in, wall_output *out
         .count = count,
         .sites = in->sites + first,
         .bristles = c->friction_law == DMB_FRICTION_BRISTLE,
+        .states = 2,
         .touches = c->sections,
         .hole = &in->hole,
         .normal_law = &in->normal_law,

@@ -24,7 +24,8 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment stands for several fields
 MOST_WORDS = 10  #: that are listed where another one is written
-LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_table_speed", "friction_table_mu", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
+LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_table_speed", "friction_table_mu",
+            "friction_state_count", "friction_callback", "friction_context", "friction_accept", "state_count", "accept", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
             "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
@@ -116,7 +117,8 @@ def words_of(enum: Any) -> dict[str, int]:
     """The words for an enumeration, with their values."""
     if enum is enums.Free:
         return {word_of(member): int(enums.Free[member.name]) for member in enums.Component}
-    return {word_of(member): int(member.value) for member in enum.__members__.values() if word_of(member) != "count"}
+    left_out = {"count", "callback"} if enum is enums.FrictionLaw else {"count"}  # a law of one's own is for programs
+    return {word_of(member): int(member.value) for member in enum.__members__.values() if word_of(member) not in left_out}
 
 
 def flag_words(enum: Any, value: int) -> list[str]:
