@@ -1,4 +1,5 @@
-"""Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C, help."""
+"""Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C,
+help."""
 import csv
 import importlib.util
 import json
@@ -129,8 +130,8 @@ class CommandTest(FolderTest):
         self.assertEqual(self.answer("run", "--until", "0.005 s", "--step", "0.5 ms")[1]["run"]["steps"], 10)
 
     def test_bent_elements(self):
-        """A rod of one element that sags by 0.065 rad, which is described straight: the states that are reached say so; four elements and a
-        stiff rod do not."""
+        """A rod of one element that sags by 0.065 rad, which is described straight: the states that are reached say so;
+        four elements and a stiff rod do not."""
         rod = """
             [[string]]
             name = "rod"
@@ -148,26 +149,35 @@ class CommandTest(FolderTest):
             step = "1 ms"
             static = true
             """
-        for text, notes in ((rod, 1), (rod.replace("elements = 1", "elements = 8"), 0), (rod.replace("20 mm", "80 mm"), 0)):
+        for text, notes in ((rod, 1), (rod.replace("elements = 1", "elements = 8"), 0),
+                            (rod.replace("20 mm", "80 mm"), 0)):
             self.scene = self.write("rod.toml", text)
             for command in ("static", "run"):
-                found = [one for one in self.answer(command)[1]["notes"] if "mass of a straight one is bent by 0.06" in one]
+                found = [one for one in self.answer(command)[1]["notes"]
+                         if "mass of a straight one is bent by 0.06" in one]
                 self.assertEqual(len(found), notes, (command, found))
 
     def test_rotation_a_step(self):
-        """A note from 0.12 rad a step on, where slow whirl is off by 1 %; none below, nor of pipes that move along their axis."""
+        """A note from 0.12 rad a step on, where slow whirl is off by 1 %; none below, nor of pipes that move along
+        their axis."""
         out, _ = self.answer("run", "--until", "0.2 s", "--step", "9 ms")
         self.assertNotIn("rad a step", out)
         out, summary = self.answer("run", "--until", "0.2 s", "--step", "20 ms")
-        self.assertRegex(out, r"main turns by 0\.2\d rad a step: rates of its slow whirl and precession are off by up to [345]\S* %; a step of \S+ ms gives 1 %")
+        self.assertRegex(out,
+                         r"main turns by 0\.2\d rad a step: rates of its slow whirl and precession are off by up to "
+                         r"[345]\S* %; a step of \S+ ms gives 1 %")
         self.assertTrue(any("rad a step" in one for one in summary["notes"]))
-        self.scene = self.write("rig.toml", SCENE.replace("[run]", '[compile]\npipe_kind = "axial-torsional"\n[run]', 1))
+        self.scene = self.write("rig.toml", SCENE.replace("[run]", '[compile]\npipe_kind = "axial-torsional"\n[run]',
+                                                          1))
         self.assertNotIn("rad a step", self.answer("run", "--until", "0.2 s", "--step", "20 ms")[0])
 
     def test_verified_run(self):
-        """The last part again with half the step: the same bits before, values that come closer with the step, and refusals."""
+        """The last part again with half the step: the same bits before, values that come closer with the step, and
+        refusals."""
         out, plain = self.answer("run")
-        self.assertRegex(out, r"energy error \S+ of the largest energy .*change in the first tenth of the run \S+, in the last tenth \S+")
+        self.assertRegex(out,
+                         r"energy error \S+ of the largest energy .*change in the first tenth of the run \S+, in the "
+                         r"last tenth \S+")
         self.assertIn("energy_error_first_tenth", plain)
         changes = []
         for step in ("1 ms", "0.25 ms"):
@@ -180,7 +190,8 @@ class CommandTest(FolderTest):
                 self.assertEqual((summary["hash"], summary["run"]["steps"]), (plain["hash"], plain["run"]["steps"]))
                 with open(self.output / "run.csv", encoding="utf-8", newline="") as file:
                     largest = max(abs(float(row["torque [N m]"])) for row in csv.DictReader(file))
-                self.assertGreaterEqual(output["step"], largest)  # all of the run: it has 20 steps; a row of the table every other one
+                # all of the run: it has 20 steps; a row of the table every other one
+                self.assertGreaterEqual(output["step"], largest)
             self.assertIn("again with half the step", out)
         self.assertLess(changes[1], changes[0])
         self.scene = self.write("rig.toml", SCENE.replace('step = "1 ms"\n', ""))
@@ -202,7 +213,8 @@ class CommandTest(FolderTest):
         loaded = scene.load(str(self.scene))
         with loaded.new_sim() as sim:
             sim.static(**loaded.fields_of("static"))
-            counter = sim.fatigue([station(loaded.names["main"], i, 0.5) for i in range(8)], curve_stress=1e6, slope=3.0,
+            counter = sim.fatigue([station(loaded.names["main"], i, 0.5) for i in range(8)], curve_stress=1e6,
+                                  slope=3.0,
                                   concentration=1.5)
             for _ in range(20):
                 sim.step(1e-3)
@@ -213,14 +225,17 @@ class CommandTest(FolderTest):
         self.assertEqual(damages.index(max(damages)), found["pipe"])
 
     def test_fatigue_refused(self):
-        for lines, told in (("", "curve_stress"), ('curve_stress = "1 MPa"', "slope"), ('curve_stress = "1 MPa"\nslope = 0.5', "1 .. 50"),
-                            ('curve_stress = "-1 MPa"\nslope = 3', "must be 1 .. 1e+15 (in Pa)"), ('curve_stress = "1 kg"\nslope = 3', "kg"),
+        for lines, told in (("", "curve_stress"), ('curve_stress = "1 MPa"', "slope"),
+                            ('curve_stress = "1 MPa"\nslope = 0.5', "1 .. 50"),
+                            ('curve_stress = "-1 MPa"\nslope = 3', "must be 1 .. 1e+15 (in Pa)"),
+                            ('curve_stress = "1 kg"\nslope = 3', "kg"),
                             ('curve_stress = "1 MPa"\nslope = 3\nconcentration = 0.5', "1 .. 100"),
                             ('curve_stress = "1 MPa"\nslope = 3\nclasses = 4', "8 .. 65536"),
                             ('curve_stress = "1 MPa"\nslope = 3\npoints = 1', "2 .. 360")):
             scene = self.write("bad.toml", SCENE + "[fatigue]\n" + lines + "\n")
             self.assertIn(told, self.ask("check", scene, status=2))
-        no_end = self.write("end.toml", SCENE.replace('end = "20 ms"\n', "") + '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\n')
+        no_end = self.write("end.toml",
+                            SCENE.replace('end = "20 ms"\n', "") + '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\n')
         self.assertIn("[run] end", self.ask("check", no_end, status=2))
 
     def test_modes_response_speeds(self):
@@ -241,7 +256,8 @@ class CommandTest(FolderTest):
         self.assertEqual(summary["buckling"]["end"], "bifurcation")
 
     def test_buckle_of_shipped_scenes(self):
-        """The lines that buckle recommends are enough for each shipped scene: factors, or a reason, and thrusts of the soft string."""
+        """The lines that buckle recommends are enough for each shipped scene: factors, or a reason, and thrusts of the
+        soft string."""
         shipped = HERE.parents[1] / "examples" / "scenes"
         if not shipped.exists():
             self.skipTest("no shipped scenes beside the package")
@@ -251,7 +267,8 @@ class CommandTest(FolderTest):
             without = re.sub(r"\[buckling\][^[]*", "", path.read_text(encoding="utf-8"))
             lines = self.ask("buckle", self.write("without.toml", without), status=2).split("for example:\n")[1]
             if path.stem != "drainage_300m":
-                lines += "follow = 0\n"  # paths of a minute; that of the reference rig ends before the factor, which is extrapolated then
+                # paths of a minute; that of the reference rig ends before the factor, which is extrapolated then
+                lines += "follow = 0\n"
             self.scene = self.write(path.name, without + lines)
             out, summary = self.answer("buckle")
             found, thrust = summary["buckling"], next(iter(summary["buckling_thrust"].values()))
@@ -264,7 +281,8 @@ class CommandTest(FolderTest):
 
     def test_thrust_of_buckling(self):
         """Level hole without friction: 2 sqrt(EI w / r) of Dawson and Paslay, 2 sqrt(2) sqrt(EI w / r) of the helix."""
-        self.scene = self.write("rig.toml", SCENE.replace('diameter = "94 mm"', 'diameter = "94 mm"\nmu_static = 0\nmu_dynamic = 0', 1)
+        self.scene = self.write("rig.toml", SCENE.replace('diameter = "94 mm"',
+                                                          'diameter = "94 mm"\nmu_static = 0\nmu_dynamic = 0', 1)
                                 + '[buckling]\nscale = "all"\nfollow = 0\n')
         out, summary = self.answer("buckle")
         area, inertia = (3.141592653589793 / 2 ** n * (0.073 ** k - 0.061 ** k) for n, k in ((2, 2), (6, 4)))
@@ -273,27 +291,33 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(found["sinusoidal_thrust_N"][-1] / load, 1.0, 6)
         self.assertAlmostEqual(found["helical_thrust_N"][-1] / (2 ** 0.5 * load), 1.0, 6)
         self.scene = self.write("column.toml", COLUMN.replace("start_free = []", "start_free = [\"rx\"]"))
-        self.assertRegex(self.ask("buckle", self.scene, status=1), "^drillmbd: buckling: not assessed, because no drive holds")
+        self.assertRegex(self.ask("buckle", self.scene, status=1),
+                         "^drillmbd: buckling: not assessed, because no drive holds")
         told = self.ask("torque-drag", self.scene, status=1)
         self.assertRegex(told, "^drillmbd: torque and drag: the model has no hole")
 
     def test_torque_drag(self):
-        out, summary = self.answer("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths", "5")
+        out, summary = self.answer("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths",
+                                   "5")
         rows = next(iter(summary["torque_drag"].values()))
         self.assertEqual(sorted(rows), ["back-ream", "drill", "pick-up", "rotate", "slack-off", "slide"])
         self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
         self.assertIn("arrives", out)
 
     def test_torque_drag_table_and_broomstick(self):
-        """Level hole: closed forms of wall force, stretch, torque and hook loads; all fields by depth; chosen depths and frictions."""
-        self.scene = self.write("rig.toml", SCENE.replace("eccentricity", 'yield_strength = "400 MPa"\neccentricity', 1))
-        out, summary = self.answer("torque-drag", "--depths", "4 m,8 m", "--frictions", "0.5,0.2", "--block-weight", "3 kN",
+        """Level hole: closed forms of wall force, stretch, torque and hook loads; all fields by depth; chosen depths
+        and frictions."""
+        self.scene = self.write("rig.toml", SCENE.replace("eccentricity", 'yield_strength = "400 MPa"\neccentricity',
+                                                          1))
+        out, summary = self.answer("torque-drag", "--depths", "4 m,8 m", "--frictions", "0.5,0.2", "--block-weight",
+                                   "3 kN",
                                    "--weight-on-bit", "1 kN")
         area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         weight = 9.81 * 7850 * area
         table = summary["torque_drag_by_depth"]["main"]["pick-up"]
         self.assertEqual(table["depth_m"], [4.0, 8.0])
-        for depth, load, wall, stretch in zip(*(table[key] for key in ("depth_m", "hook_load_N", "wall_force_N", "stretch_m"))):
+        for depth, load, wall, stretch in zip(*(table[key] for key in ("depth_m", "hook_load_N", "wall_force_N",
+                                                                       "stretch_m"))):
             self.assertAlmostEqual(load, 3e3 + 0.3 * weight * depth, 6)
             self.assertAlmostEqual(wall, weight * depth, 6)
             self.assertAlmostEqual(stretch / (0.15 * weight * depth ** 2 / (2.1e11 * area)), 1.0, 6)
@@ -308,25 +332,33 @@ class CommandTest(FolderTest):
         self.assertIn("yield share [-]", rows[0])
         broom = summary["broomstick"]["main"]
         self.assertEqual(broom["friction"], [0.2, 0.5])
-        for friction, loads, torques in zip(broom["friction"], broom["slack-off_hook_load_N"], broom["rotate_torque_N_m"]):
+        for friction, loads, torques in zip(broom["friction"], broom["slack-off_hook_load_N"],
+                                            broom["rotate_torque_N_m"]):
             self.assertAlmostEqual(loads[1], 3e3 - friction * weight * 8, 6)
             self.assertAlmostEqual(torques[0], friction * weight * 4 * 0.0365, 6)
         self.assertIn("broomstick_main.png", summary["files"])
         self.assertIn("friction coefficients 0.15, 0.3, 0.45", self.ask("torque-drag", self.scene, "--depths", "2"))
-        for words, wanted in ((["--depths", "9 m"], "at most 8 m"), (["--depths", "0"], "outside 1"), (["--frictions", "0.2,x"], "no number"),
-                              (["--frictions", "-1"], "outside 0 .. 10"), (["--block-weight", "3 m"], "--block-weight")):
+        for words, wanted in ((["--depths", "9 m"], "at most 8 m"), (["--depths", "0"], "outside 1"),
+                              (["--frictions", "0.2,x"], "no number"),
+                              (["--frictions", "-1"], "outside 0 .. 10"),
+                              (["--block-weight", "3 m"], "--block-weight")):
             self.assertIn(wanted, self.ask("torque-drag", self.scene, *words, status=2))
 
     def test_broomstick_of_a_hole_with_sections(self):
-        """The friction of each section times 0.5, 1 and 1.5; a coefficient of the command line takes the place of all."""
+        """The friction of each section times 0.5, 1 and 1.5; a coefficient of the command line takes the place of
+        all."""
         weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
-        self.scene = self.write("rig.toml", SCENE + '[[hole.section]]\ndepth = "4 m"\nmu_static = 0.5\nmu_dynamic = 0.4\ntransition = "1 mm"\n')
+        self.scene = self.write("rig.toml",
+                                SCENE
+                                + '[[hole.section]]\ndepth = "4 m"\nmu_static = 0.5\nmu_dynamic = 0.4\ntransition = "1 '
+                                  'mm"\n')
         out, summary = self.answer("torque-drag", "--depths", "8 m")
         broom = summary["broomstick"]["main"]
         self.assertEqual((broom["factor"], broom["friction"]), ([0.5, 1.0, 1.5], None))
         for factor, loads in zip(broom["factor"], broom["pick-up_hook_load_N"]):
             self.assertAlmostEqual(loads[0] / (factor * weight * 4 * (0.3 + 0.4)), 1.0, 4)
-        self.assertAlmostEqual(broom["pick-up_hook_load_N"][1][0], summary["torque_drag"]["main"]["pick-up"]["hook_load_N"], 9)
+        self.assertAlmostEqual(broom["pick-up_hook_load_N"][1][0],
+                               summary["torque_drag"]["main"]["pick-up"]["hook_load_N"], 9)
         self.assertIn("broomstick: 0.5, 1 and 1.5 times the wall's friction at each depth", out)
         log = self.write("log.csv", f"depth [m],pick-up [N]\n8,{weight * 4 * (0.3 + 0.4):.6f}\n")
         out, summary = self.answer("torque-drag", "--depths", "8 m", "--measured", log)
@@ -337,7 +369,8 @@ class CommandTest(FolderTest):
 
     def test_torque_drag_loads_of_the_scene(self):
         """Load and torque of the bit are those of the scene; with another load the estimate of the torque follows."""
-        scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + '[[time_function]]\nname = "bit load"\nsegment = {h0 = "2 kN"}\n'
+        scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + \
+            '[[time_function]]\nname = "bit load"\nsegment = {h0 = "2 kN"}\n'
         self.scene = self.write("rig.toml", scene)
         for words, weight, torque in ((), 2e3, 30.0), (("--weight-on-bit", "4 kN"), 4e3, 60.0):
             out, summary = self.answer("torque-drag", *words)
@@ -346,12 +379,15 @@ class CommandTest(FolderTest):
             self.assertIn("estimated: 0.5 x weight on bit x bit diameter / 3", out)
 
     def test_measured_hook_loads(self):
-        """Loads made with a known friction are found again; scatter of two measurements at one depth gives Student's interval."""
+        """Loads made with a known friction are found again; scatter of two measurements at one depth gives Student's
+        interval."""
         weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
-        rows = [(depth, 2e3 + 0.25 * weight * depth, 2e3 - 0.35 * weight * depth + error, 2000.0, 0.2 * weight * depth * 0.0365)
+        rows = [(depth, 2e3 + 0.25 * weight * depth, 2e3 - 0.35 * weight * depth + error, 2000.0,
+                 0.2 * weight * depth * 0.0365)
                 for depth, error in ((4.0, 0.0), (8.0, 10.0), (8.0, -10.0))]
         path = self.write("log.csv", "MD [ft];pick_up [kN];slack_off [lbf];Rotating weight [kN];Torque [N m]\n"
-                          + "".join(f"{d / 0.3048:.9f};{p / 1e3:.9f};{s / 4.4482216152605:.9f};{r / 1e3:.3f};{t:.9f}\n" for d, p, s, r, t in rows))
+                          + "".join(f"{d / 0.3048:.9f};{p / 1e3:.9f};{s / 4.4482216152605:.9f};{r / 1e3:.3f};{t:.9f}\n"
+                                    for d, p, s, r, t in rows))
         out, summary = self.answer("torque-drag", "--measured", path, "--block-weight", "2 kN")
         found = summary["measured"]["main"]
         self.assertAlmostEqual(found["pick-up"]["friction"], 0.25, 6)
@@ -362,10 +398,14 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(found["slack-off"]["half_width_95"] / (4.302653 * (200 / 2 / slopes) ** 0.5), 1.0, 3)
         self.assertIn("hook load, rotate: friction not assessed, because", out)
         self.assertIn("measured_main.csv", summary["files"])
-        for text, wanted in (("depth [m],hook load [kN]\n5,3\n", "line 2: hook load of no operation"), ("depth [m],pick up\n5,3\n", "has no unit"),
-                             ("depth [m],pick up [kN]\n5,-999.25\n", "missing value"), ("depth [m],pick up [kN]\n9,3\n", "at most 8 m"),
-                             ("depth [m],inc [deg],azi [deg]\n5,3,3\n", "no column of loads"), ("a,b\n1,2\n", "no head names depth; give the heads")):
-            self.assertIn(wanted, self.ask("torque-drag", self.scene, "--measured", self.write("bad.csv", text), status=2))
+        for text, wanted in (("depth [m],hook load [kN]\n5,3\n", "line 2: hook load of no operation"),
+                             ("depth [m],pick up\n5,3\n", "has no unit"),
+                             ("depth [m],pick up [kN]\n5,-999.25\n", "missing value"),
+                             ("depth [m],pick up [kN]\n9,3\n", "at most 8 m"),
+                             ("depth [m],inc [deg],azi [deg]\n5,3,3\n", "no column of loads"),
+                             ("a,b\n1,2\n", "no head names depth; give the heads")):
+            self.assertIn(wanted, self.ask("torque-drag", self.scene, "--measured", self.write("bad.csv", text),
+                                           status=2))
         self.ask("torque-drag", self.scene, "--measured", self.folder / "none.csv", status=3)
         log = "depth [m],hook load [kN],operation\n4,0.3,pick-up\n8,99,slack off\n"
         out = self.ask("torque-drag", self.scene, "--measured", self.write("log.csv", log))
@@ -373,7 +413,8 @@ class CommandTest(FolderTest):
         self.assertIn("hook load, slack-off: friction not assessed, because no coefficient", out)
 
     def test_rig_limits(self):
-        """Level hole: the torque of rotation and the friction of sliding grow with depth, so the reach has a closed form."""
+        """Level hole: the torque of rotation and the friction of sliding grow with depth, so the reach has a closed
+        form."""
         weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         turning = 0.3 * weight * 0.0365  # N m per metre
         self.scene = self.write("rig.toml", SCENE + f'[limits]\ntorque = "{5.5 * turning:.9f} N m"\npull = "1 kN"\n')
@@ -388,18 +429,23 @@ class CommandTest(FolderTest):
         self.assertIn("rig_limits_main.csv", summary["files"])
         self.assertIn("exceeded at 6 m, the first depth", self.ask("torque-drag", self.scene, "--depths", "6 m"))
         self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 kN"\n')
-        self.assertRegex(self.ask("torque-drag", self.scene), r"not reached down to 8 m: thrust 233 N, 23 % of the limit \(slack-off at 8 m\)")
-        self.assertIn("this rig reaches 7.999 m: thrust (slide)", self.ask("torque-drag", self.scene, "--weight-on-bit", f"{1e3 - 0.3 * weight * 7.999:.6f} N",
+        self.assertRegex(self.ask("torque-drag", self.scene),
+                         r"not reached down to 8 m: thrust 233 N, 23 % of the limit \(slack-off at 8 m\)")
+        self.assertIn("this rig reaches 7.999 m: thrust (slide)", self.ask("torque-drag", self.scene, "--weight-on-bit",
+                                                                           f"{1e3 - 0.3 * weight * 7.999:.6f} N",
                                                                "--depths", "4"))
         self.scene = self.write("rig.toml", SCENE)
-        self.assertIn("limits of the rig: not assessed, because the scene has no [limits]", self.ask("torque-drag", self.scene))
+        self.assertIn("limits of the rig: not assessed, because the scene has no [limits]",
+                      self.ask("torque-drag", self.scene))
 
     def test_stuck(self):
-        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction", "0")
+        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction",
+                                   "0")
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3, 3)
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3, 3)
         self.assertAlmostEqual(summary["stuck"]["torque"]["at_bit_N_m"], 500.0)
-        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--overpull", "10 kN",
+        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--overpull",
+                                   "10 kN",
                                    "--stretch", "0.1 mm")
         area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         rubbed = 0.3 * 8 * 9.81 * 7850 * area
@@ -407,18 +453,23 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3 - rubbed, 3)
         self.assertIn("free down to", out)
         self.assertNotIn("free as far as", out)
-        self.assertIn("free as far as the string goes", self.ask("stuck", self.scene, "--overpull", "10 kN", "--stretch", "1 m"))
+        self.assertIn("free as far as the string goes", self.ask("stuck", self.scene, "--overpull", "10 kN",
+                                                                 "--stretch", "1 m"))
         self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
         self.assertIn("nothing arrives", self.ask("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
-        for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"], ["--overpull", "-1 kN", "--stretch", "1 mm"]):
+        for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"],
+                      ["--overpull", "-1 kN", "--stretch", "1 mm"]):
             self.ask("stuck", self.scene, *words, status=2)
 
     def test_sweep(self):
-        self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary", "hole.diameter=94 mm,5 mm",
+        self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary",
+                 "hole.diameter=94 mm,5 mm",
                  "-o", self.output, "--", "--depths", "2", status=1)
-        self.ask("sweep", self.scene, "check", "--vary", "hole.mu_dynamic=0.1:0.35:6", "-o", self.folder / "grid")  # 0.35, not more
+        # 0.35, not more
+        self.ask("sweep", self.scene, "check", "--vary", "hole.mu_dynamic=0.1:0.35:6", "-o", self.folder / "grid")
         self.assertIn("\n6,0.35,ok", (self.folder / "grid" / "sweep.csv").read_text())
-        self.assertIn("--output", self.ask("sweep", self.scene, "report", "--vary", "hole.mu_dynamic=0.1,0.2", status=2))
+        self.assertIn("--output", self.ask("sweep", self.scene, "report", "--vary", "hole.mu_dynamic=0.1,0.2",
+                                           status=2))
         with open(self.output / "sweep.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["status"] for row in rows], ["ok", "failed"] * 3)
@@ -447,7 +498,8 @@ class CommandTest(FolderTest):
     def test_completion(self):
         """As bash asks: the line typed so far in COMP_LINE, words on file descriptor 8."""
         line = "drillmbd torque-drag --de"
-        code = "import os; os.dup2(os.open('words', os.O_CREAT | os.O_WRONLY), 8); from drillmbd.command import main; main()"
+        code = ("import os; os.dup2(os.open('words', os.O_CREAT | os.O_WRONLY), 8); from drillmbd.command import main; "
+                "main()")
         subprocess.run([sys.executable, "-c", code], cwd=self.folder, check=True, env={
             **os.environ, "PYTHONPATH": str(pathlib.Path(__file__).parent), "_ARGCOMPLETE": "1", "COMP_LINE": line,
             "COMP_POINT": str(len(line)), "_ARGCOMPLETE_COMP_WORDBREAKS": " ", "COMP_TYPE": "9"})
@@ -455,7 +507,8 @@ class CommandTest(FolderTest):
 
     def test_help(self):
         self.assertIn("examples:", self.ask("--help"))
-        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "report", "save", "schema"):
+        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "report",
+                        "save", "schema"):
             self.assertIn("usage: drillmbd", self.ask(command, "--help"))
         self.assertRegex(self.ask("--version"), r"drillmbd \d+\.\d+\.\d+")
 
@@ -495,7 +548,8 @@ class CommandTest(FolderTest):
         page = (self.output / "report.html").read_text(encoding="utf-8")
         self.assertLess(len(page), 10_000_000)
         self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
-        for part in ("Critical speeds", "Fatigue along the string", "Thrust at the rig", "Assumptions", "model check", summary["hash"]):
+        for part in ("Critical speeds", "Fatigue along the string", "Thrust at the rig", "Assumptions", "model check",
+                     summary["hash"]):
             self.assertIn(part, page)
         self.assertIn("--output", self.ask("report", self.scene, status=2))
         self.browse(self.output / "report.html", page.count('class="figure"'))
@@ -523,7 +577,9 @@ class CommandTest(FolderTest):
         self.assertEqual((known["Torque at the rig"][0], known["Thrust at the rig"][0]), ("OK", "OK"))
         self.assertEqual(known["Pull at the rig"][0], "NO LIMIT GIVEN")
         self.assertEqual(known["Fatigue"][0], "NOT ASSESSED")
-        unknown = verdicts(without_load + '[limits]\ntorque = "5 kN m"\npush = "100 kN"\npull = "100 kN"\nyield_stress = "400 MPa"\n')
+        unknown = verdicts(without_load
+                           + '[limits]\ntorque = "5 kN m"\npush = "100 kN"\npull = "100 kN"\nyield_stress = "400 '
+                             'MPa"\n')
         for title in ("Torque at the rig", "Thrust at the rig", "Von Mises stress"):
             self.assertEqual(unknown[title][0], "NOT ASSESSED", title)
             self.assertIn("without the load on the bit", unknown[title][1])
@@ -541,7 +597,8 @@ class CommandTest(FolderTest):
         self.assertEqual(lost, ("NOT COMPUTED", "no solution"))
 
     def test_nothing_excites(self):
-        self.scene = self.write("still.toml", "\n".join(one for one in SCENE.split("\n") if "eccentricity" not in one or "kind" in one))
+        self.scene = self.write("still.toml", "\n".join(one for one in SCENE.split("\n") if "eccentricity" not in one
+                                                        or "kind" in one))
         out, summary = self.answer("speeds")
         self.assertIn("not assessed, because all excitations are zero", out)
         self.assertFalse(summary["speeds_assessed"])
@@ -590,7 +647,8 @@ class CommandTest(FolderTest):
         process.communicate(timeout=120)
         self.assertEqual(process.returncode, 130)
         summary = json.loads((self.output / "summary.json").read_text(encoding="utf-8"))
-        self.assertTrue(any("stopped by Ctrl-C" in note for note in summary["notes"]), summary["notes"])  # a note of bounces may follow
+        # a note of bounces may follow
+        self.assertTrue(any("stopped by Ctrl-C" in note for note in summary["notes"]), summary["notes"])
         self.assertIn("run.csv", summary["files"])
         self.assertGreater(summary["run"]["elapsed_s"], 0.0)
         self.assertGreater(summary["run"]["real_time_factor"], 0.0)

@@ -1,5 +1,5 @@
-"""Tests of the report: catalogue of its languages, the page in Chinese, plan and section of the hole, verdicts that are not given, limits
-for the crew, probability."""
+"""Tests of the report: catalogue of its languages, the page in Chinese, plan and section of the hole, verdicts that are
+not given, limits for the crew, probability."""
 import ast
 import dataclasses
 import html
@@ -18,7 +18,8 @@ needs("numpy", "tomllib")
 
 import tomllib  # noqa: E402
 
-from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, report_probability, scene, unit_systems, verdict  # noqa: E402
+from drillmbd import (results, enums, language, report, report_figures, report_hole, report_linear, report_page,
+                      report_probability, scene, unit_systems, verdict)  # noqa: E402
 from drillmbd._structs import Id, SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
@@ -80,7 +81,8 @@ kind = "rig-pull"
 limit = "1 kN"
 """
 #: Words of the Chinese page that no catalogue translates: units, names of programs, keys and people, axes.
-LATIN = set("kN N MPa kPa Pa m mm s ms rad deg rpm h kg drillmbd rig toml Python Pessier Fear S main run speeds buckling fatigue end psi lbf ft in lbm ppg "
+LATIN = set("kN N MPa kPa Pa m mm s ms rad deg rpm h kg drillmbd rig toml Python Pessier Fear S main run speeds "
+            "buckling fatigue end psi lbf ft in lbm ppg "
             "klbf hp kft x L load bit feed head turning string pipes static report PNG e string out".split())
 
 
@@ -88,10 +90,12 @@ def phrases():
     """File and call of each sentence that goes through the catalogue."""
     for path in sorted(PACKAGE.rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        names = {one.asname or one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "language" for one in node.names}
+        names = {one.asname or one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
+                 and node.module == "language" for one in node.names}
         names |= {"phrase"} if path.name == "language.py" else set()
         for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in names & {"phrase", "joined"}:
+            if (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+                and node.func.id in names & {"phrase", "joined"}):
                 yield path.name, node
 
 
@@ -136,9 +140,11 @@ class CatalogueTest(unittest.TestCase):
         for part in CATALOGUE.values():
             for english, other in part.items():
                 left = set(re.findall(r"[A-Za-z]+", re.sub(r"\{[^{}]*\}|\[+[\w. ]*\]+|\\?\"[^\"]*\"", " ", other)))
-                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size outer diameter follow "
+                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size "
+                                      "outer diameter follow "
                                        # keys of scene files and freedoms that a remedy names
-                                       "Hz RX RY RZ EI limit high steps slip axial rotation steady hole follows stuck flow eccentricity rate consistency fluid "
+                                       "Hz RX RY RZ EI limit high steps slip axial rotation steady hole follows stuck "
+                                       "flow eccentricity rate consistency fluid "
                                        "density environment kind rock law step min max part component "
                                        # names of the live page: of the browser's parts, and its keys
                                        "WebAssembly WebGL libdrillmbd K R".split()) | {"load"}
@@ -152,7 +158,8 @@ class CatalogueTest(unittest.TestCase):
                 self.assertTrue(any(part in one for one in known), template)
 
     def test_every_message_is_met(self):
-        """Each message of the catalogue gives its own translation: no entry before it fits too. Names of C do not appear in English."""
+        """Each message of the catalogue gives its own translation: no entry before it fits too. Names of C do not
+        appear in English."""
         for english, other in CATALOGUE["messages"].items():
             values = {name[1:-1]: f"{7 + number}" for number, name in enumerate(sorted(set(FIELDS.findall(english))))}
             message = language.Foreign(english.format(**values))
@@ -160,11 +167,14 @@ class CatalogueTest(unittest.TestCase):
             self.assertNotRegex(str(message), r"dmb_|DMB_")
 
     def test_parts_of_a_message(self):
-        """Parts with semicolons between are translated if all are known; else the whole stays English and is said to be so."""
+        """Parts with semicolons between are translated if all are known; else the whole stays English and is said to be
+        so."""
         chinese = language.Language("zh")
-        known = language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); no grade is named: the yield strength is not known; without tool joints")
+        known = language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); no grade is named: the yield "
+                                 "strength is not known; without tool joints")
         self.assertNotRegex(chinese(known), r"taken|grade|原文")
-        self.assertIn("来源：A; B", chinese(language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); source: A; B")))
+        self.assertIn("来源：A; B",
+                      chinese(language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); source: A; B")))
         self.assertIn("英文原文", chinese(language.Foreign("without tool joints; something new")))
 
     def test_every_status_is_there(self):
@@ -205,12 +215,14 @@ class HoleTest(unittest.TestCase):
         return report_hole.hole_view(made, found, unit_systems.Units(units)), found
 
     def test_place_of_the_end(self):
-        """A straight hole: the end is length times cosine of the dip along its azimuth, length times sine above; nothing to the side."""
+        """A straight hole: the end is length times cosine of the dip along its azimuth, length times sine above;
+        nothing to the side."""
         for azimuth in (0.0, 90.0, 200.0):
             view, found = self.view(azimuth=f"{azimuth:g} deg")
             length = float(found.depth.max())
             self.assertAlmostEqual(math.degrees(view.azimuth) % 360.0, azimuth, 6)
-            for value, wanted in zip(view.course[-1], (length * math.cos(math.radians(5.0)), 0.0, length * math.sin(math.radians(5.0)))):
+            for value, wanted in zip(view.course[-1], (length * math.cos(math.radians(5.0)), 0.0,
+                                                       length * math.sin(math.radians(5.0)))):
                 self.assertAlmostEqual(value, wanted, 6)
             self.assertAlmostEqual(view.dips[0], 5.0, 6)
 
@@ -238,14 +250,17 @@ class HoleTest(unittest.TestCase):
             self.assertAlmostEqual(plan[-1][0] - plan[0][0], section[-1][0] - section[0][0], 1)
             rise = (section[0][1] - section[-1][1]) / (section[-1][0] - section[0][0])
             self.assertAlmostEqual(rise, math.tan(math.radians(5.0)), 2)
-            places = [float(one) for one in re.findall(r'[ "]x="([-\d.]+)"', drawn)] + [point[0] for one in course for point in one]
+            places = ([float(one) for one in re.findall(r'[ "]x="([-\d.]+)"', drawn)] + [point[0] for one in course
+                                                                                         for point in one])
             self.assertTrue(all(0.0 <= place <= width for place in places), places)
 
     def test_north_arrow(self):
         """Along azimuth 90 the hole goes to the right of the page and north is up; along 0 north is to the right."""
-        for azimuth, wanted in (("90 deg", (0.0, -1.0)), ("0 deg", (1.0, 0.0)), ("200 deg", (math.cos(math.radians(200)), -math.sin(math.radians(200))))):
+        for azimuth, wanted in (("90 deg", (0.0, -1.0)), ("0 deg", (1.0, 0.0)),
+                                ("200 deg", (math.cos(math.radians(200)), -math.sin(math.radians(200))))):
             drawn = report_hole.Drawing(self.view(azimuth=azimuth)[0], 960.0, language.ENGLISH).svg()
-            tail, tip = (tuple(map(float, one.split(","))) for one in re.search(r'points="([^"]*)"[^>]*stroke-width="1.6"', drawn)[1].split())
+            tail, tip = (tuple(map(float, one.split(",")))
+                         for one in re.search(r'points="([^"]*)"[^>]*stroke-width="1.6"', drawn)[1].split())
             length = math.dist(tail, tip)
             for i in range(2):
                 self.assertAlmostEqual((tip[i] - tail[i]) / length, wanted[i], 2)
@@ -256,10 +271,13 @@ class HoleTest(unittest.TestCase):
         self.assertNotIn("nan", drawn)
 
     def test_contact_force_has_its_class(self):
-        """Thicker and darker with the force, also without colours; the string that lies on the wall bears its weight in the mud."""
-        light = [0.2126 * int(colour[1:3], 16) + 0.7152 * int(colour[3:5], 16) + 0.0722 * int(colour[5:], 16) for _, colour in report_hole.CLASSES[1:]]
+        """Thicker and darker with the force, also without colours; the string that lies on the wall bears its weight in
+        the mud."""
+        light = [0.2126 * int(colour[1:3], 16) + 0.7152 * int(colour[3:5], 16) + 0.0722 * int(colour[5:], 16)
+                 for _, colour in report_hole.CLASSES[1:]]
         self.assertTrue(all(a > b + 30.0 for a, b in zip(light, light[1:])), light)
-        self.assertEqual([width for width, _ in report_hole.CLASSES], sorted({width for width, _ in report_hole.CLASSES}))
+        self.assertEqual([width for width, _ in report_hole.CLASSES],
+                         sorted({width for width, _ in report_hole.CLASSES}))
         view, found = self.view()
         self.assertEqual(len(view.force), 8)
         self.assertGreater(max(view.force), 0.0)
@@ -273,7 +291,8 @@ class VerdictTest(unittest.TestCase):
     """Each all-clear has an input for which it is not given."""
 
     def test_duration(self):
-        for seconds, text in ((5.4e3, "1.5 h"), (7.2e6, "2000 h"), (3.156e9, "100 years"), (1e14, "more than 1000 years")):
+        for seconds, text in ((5.4e3, "1.5 h"), (7.2e6, "2000 h"), (3.156e9, "100 years"),
+                              (1e14, "more than 1000 years")):
             self.assertEqual(verdict.duration(seconds), text)
 
     def speeds(self, bands=(), severity=0.5, rotation=10.0, silent=0, unmoved=()):
@@ -300,7 +319,8 @@ class VerdictTest(unittest.TestCase):
         """Whole revolutions per minute outside of all bands, inside the range."""
         rpm = math.pi / 30.0
         self.assertEqual(self.speeds()[0].allowed(), [(48, 238)])
-        self.assertEqual(self.speeds(bands=[(100.2 * rpm, 120.7 * rpm), (200.0 * rpm, 25.0)])[0].allowed(), [(48, 100), (121, 200)])
+        self.assertEqual(self.speeds(bands=[(100.2 * rpm, 120.7 * rpm), (200.0 * rpm, 25.0)])[0].allowed(),
+                         [(48, 100), (121, 200)])
         self.assertEqual(self.speeds(bands=[(5.0, 25.0)])[0].allowed(), [])
         self.assertEqual(self.speeds(bands=[(200.0 * rpm, 25.0)])[0].avoid(), "200 rpm and more")
 
@@ -310,8 +330,10 @@ class VerdictTest(unittest.TestCase):
             if value is not None:
                 demand.add(value, "s")
             return demand.tile().verdict
-        self.assertEqual([verdict_of(10.0, 5.0), verdict_of(10.0, 9.0), verdict_of(10.0, 11.0)], ["OK", "NEAR LIMIT", "OVER"])
-        self.assertEqual([verdict_of(None, 5.0), verdict_of(10.0, None), verdict_of(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
+        self.assertEqual([verdict_of(10.0, 5.0), verdict_of(10.0, 9.0), verdict_of(10.0, 11.0)],
+                         ["OK", "NEAR LIMIT", "OVER"])
+        self.assertEqual([verdict_of(None, 5.0), verdict_of(10.0, None), verdict_of(10.0, 5.0, ["a"])],
+                         ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
 
     def test_an_analysis_without_a_value(self):
         """NaN of one analysis is never left out in silence."""
@@ -334,11 +356,13 @@ class VerdictTest(unittest.TestCase):
     def test_page_of_a_scene(self):
         """The scene has every excitation and load, so that its values are compared; torque of the bit by hand."""
         made, tiles = self.study(SCENE)
-        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress", "Buckling in the hole", "Critical speeds"):
+        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress",
+                      "Buckling in the hole", "Critical speeds"):
             self.assertEqual(tiles[title].verdict, "OK", tiles[title])
         self.assertEqual(made.plan.torque_on_bit, BIT_FRICTION * 2000.0 * 0.094 / 3.0)
         self.assertIn("bit torque 31.33 N m, estimated from the bit load", made.headline)
-        self.assertEqual([row[0] for row in made.rows], ["Thrust at the rig", "Pull at the rig", "Torque at the rig", "Rotary speed", "Load on the bit",
+        self.assertEqual([row[0] for row in made.rows], ["Thrust at the rig", "Pull at the rig", "Torque at the rig",
+                                                         "Rotary speed", "Load on the bit",
                                                          "Feed rate"])
         self.assertEqual(made.rows[0][1:3], ("100 kN", tiles["Thrust at the rig"].value))
         self.assertEqual(made.rows[4][1], "2 kN: more is not assessed")
@@ -349,19 +373,23 @@ class VerdictTest(unittest.TestCase):
         bare, _ = self.study(SCENE, _bit_torque=lambda: None)
         outer, inner = 0.073, 0.061
         shear = made.plan.torque_on_bit * 0.5 * outer / (math.pi / 32.0 * (outer ** 4 - inner ** 4))
-        self.assertAlmostEqual(made.demands["yield_stress"].value - bare.demands["yield_stress"].value, math.sqrt(3.0) * shear, 3)
+        self.assertAlmostEqual(made.demands["yield_stress"].value - bare.demands["yield_stress"].value,
+                               math.sqrt(3.0) * shear, 3)
         self.assertIn("by the estimated torque of the bit", tiles["Von Mises stress"].text)
 
     def test_buckling_in_the_hole(self):
         self.assertEqual(self.study(SCENE.replace('"2 kN"', '"900 kN"'))[1]["Buckling in the hole"].verdict, "OVER")
-        self.assertEqual(self.study(SCENE.replace('load = "2 kN"\n', ''))[1]["Buckling in the hole"].verdict, "NOT ASSESSED")
+        self.assertEqual(self.study(SCENE.replace('load = "2 kN"\n', ''))[1]["Buckling in the hole"].verdict,
+                         "NOT ASSESSED")
 
     def test_without_a_run(self):
         """No analysis has the load of the bit in the stress then."""
         text = FATIGUE.sub("", SCENE.replace('end = "20 ms"\n', ""))
         tiles = self.study(text)[1]
-        self.assertEqual((tiles["Von Mises stress"].verdict, tiles["Run in time"].verdict), ("NOT ASSESSED", "NOT ASSESSED"))
-        with_strength = self.study(text.replace('eccentricity = "1 mm"', 'eccentricity = "1 mm"\nyield_strength = "500 MPa"'))[1]
+        self.assertEqual((tiles["Von Mises stress"].verdict, tiles["Run in time"].verdict),
+                         ("NOT ASSESSED", "NOT ASSESSED"))
+        with_strength = self.study(text.replace('eccentricity = "1 mm"',
+                                                'eccentricity = "1 mm"\nyield_strength = "500 MPa"'))[1]
         self.assertEqual(with_strength["Von Mises stress"].verdict, "OK")
 
     def test_nonlinear_buckling(self):
@@ -382,15 +410,19 @@ class VerdictTest(unittest.TestCase):
             made = unittest.mock.MagicMock()
             made.new_sim().__enter__().buckling.return_value = Found(factors, confirmed)
             return report_linear.buckling_tile(made, lambda sim: None, unittest.mock.MagicMock()).verdict
-        self.assertEqual([verdict_of([2.0]), verdict_of([1.2]), verdict_of([0.9]), verdict_of([2.0], 0), verdict_of([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
+        self.assertEqual([verdict_of([2.0]), verdict_of([1.2]), verdict_of([0.9]), verdict_of([2.0], 0),
+                          verdict_of([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
 
     def test_rows_for_the_crew(self):
-        """Load on the bit and feed are cleared with what they cause only; the page says not to drill where a value is over."""
+        """Load on the bit and feed are cleared with what they cause only; the page says not to drill where a value is
+        over."""
         made, tiles = self.study(SCENE.replace('torque = "5 kN m"', 'torque = "20 N m"').replace('"0 m/s"', '"1 mm/s"'))
         rows = {row[0]: row for row in made.rows}
-        self.assertEqual((rows["Torque at the rig"][3], rows["Load on the bit"][3], rows["Feed rate"][3]), ("OVER",) * 3)
+        self.assertEqual((rows["Torque at the rig"][3], rows["Load on the bit"][3], rows["Feed rate"][3]),
+                         ("OVER",) * 3)
         self.assertEqual(rows["Feed rate"][1], "1 mm/s: more is not assessed")
-        self.assertIn("Do not drill as described here. Over the limit: Torque at the rig.", report_page.Page(made).limits())
+        self.assertIn("Do not drill as described here. Over the limit: Torque at the rig.",
+                      report_page.Page(made).limits())
         made, tiles = self.study(SCENE.replace('"0 m/s"', '"1 mm/s"'))
         self.assertEqual({row[3] for row in made.rows}, {"OK"})
         self.assertNotIn("Do not drill", report_page.Page(made).limits())
@@ -409,17 +441,21 @@ class VerdictTest(unittest.TestCase):
         made, tiles = self.study(text.replace('end = "20 ms"\n', ""))
         self.assertFalse(made.plan.estimated)
         self.assertNotIn("estimated", made.headline)
-        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig", "Von Mises stress")], ["NOT ASSESSED"] * 3)
+        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig",
+                                                           "Von Mises stress")], ["NOT ASSESSED"] * 3)
         made, tiles = self.study(text)
         self.assertFalse(made.plan.estimated)
         self.assertNotIn("rock law", tiles["Torque at the rig"].text)
 
     def test_two_strings(self):
         """Analyses of one string clear nothing of a scene with two."""
-        text = SCENE.replace('[[bit]]', '[[string]]\nname = "other"\nstart_free = []\n[[string.pipes]]\ncount = 2\neccentricity = "1 mm"\n[[bit]]\nstring = "main"')
+        text = SCENE.replace('[[bit]]',
+                             '[[string]]\nname = "other"\nstart_free = []\n[[string.pipes]]\ncount = 2\neccentricity = '
+                             '"1 mm"\n[[bit]]\nstring = "main"')
         self.assertEqual(len(scene.loads(text).pipes), 2)
         tiles = self.study(text)[1]
-        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress", "Buckling in the hole"):
+        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress",
+                      "Buckling in the hole"):
             self.assertNotEqual(tiles[title].verdict, "OK", title)
         self.assertIn("other strings (other)", tiles["Pull at the rig"].text)
 
@@ -427,12 +463,14 @@ class VerdictTest(unittest.TestCase):
         """Its torque is not estimated, so that torque and stress are not cleared."""
         made, tiles = self.study(SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload'))
         self.assertFalse(made.plan.estimated)
-        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig", "Von Mises stress")],
+        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig",
+                                                           "Von Mises stress")],
                          ["OK", "NOT ASSESSED", "NOT ASSESSED"])
 
     def test_stopped_run(self):
         """After Ctrl-C nothing that needs the whole run is cleared."""
-        made = report.Study(scene.loads(SCENE), results.CommandOutput(None, "x.toml", scene.loads(SCENE), "report", True))
+        made = report.Study(scene.loads(SCENE), results.CommandOutput(None, "x.toml", scene.loads(SCENE), "report",
+                                                                      True))
 
         def stopped(sim):
             if sim.statistics().steps:
@@ -441,7 +479,8 @@ class VerdictTest(unittest.TestCase):
         shape, made._shape = made._shape, stopped
         made.ask()
         self.assertTrue(made.out.interrupted)
-        self.assertEqual({tile.verdict for tile in made.tiles if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
+        self.assertEqual({tile.verdict for tile in made.tiles
+                          if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
 
     def test_fatigue(self):
         endless = SCENE.replace('slope = 4', 'slope = 4\nendurance = "90 MPa"')
@@ -454,15 +493,18 @@ class VerdictTest(unittest.TestCase):
 class OperatingTest(unittest.TestCase):
     def test_largest(self):
         """Steps up and down again, in time; against sums by hand."""
-        up, down = {"kind": enums.SEGMENT_STEP, "x0": 0.0, "x1": 1.0, "h1": 20.0}, {"kind": enums.SEGMENT_STEP5, "x0": 19.0, "x1": 20.0, "h1": -20.0}
+        up, down = ({"kind": enums.SEGMENT_STEP, "x0": 0.0, "x1": 1.0, "h1": 20.0},
+                    {"kind": enums.SEGMENT_STEP5, "x0": 19.0, "x1": 20.0, "h1": -20.0})
         back = {**down, "x0": 21.0, "x1": 22.0}
         self.assertEqual(largest_of([up]), 20.0)
         self.assertEqual(largest_of([up, down, back]), 20.0)
         self.assertEqual(largest_of([up, {**down, "h1": -50.0}]), 30.0)
         self.assertEqual(largest_of([{"kind": enums.SEGMENT_HARMONIC, "h0": 3.0, "h1": 2.0}]), 5.0)
         self.assertEqual(largest_of([{"h0": -4.0}, {"kind": enums.SEGMENT_HARMONIC, "h1": 2.0}]), 6.0)
-        self.assertEqual(largest_of([{"table": [(0.0, 0.0), (2.0, 0.0), (4.0, 6.0)]}, {**down, "x0": 1.0, "x1": 3.0, "h1": 5.0}]), 11.0)
-        self.assertEqual(largest_of([{"table": [(0.0, 5.0), (10.0, 0.0)]}, {**down, "x0": 2.0, "x1": 9.0, "h1": -5.0}]), 5.0)
+        self.assertEqual(largest_of([{"table": [(0.0, 0.0), (2.0, 0.0), (4.0, 6.0)]},
+                                     {**down, "x0": 1.0, "x1": 3.0, "h1": 5.0}]), 11.0)
+        self.assertEqual(largest_of([{"table": [(0.0, 5.0), (10.0, 0.0)]}, {**down, "x0": 2.0, "x1": 9.0, "h1": -5.0}]),
+                         5.0)
         self.assertEqual(largest_of([]), 0.0)
         worn = {"kind": enums.SEGMENT_PER_REVOLUTION, "of": Id(0, 1), "share": -0.02, "h1": 1.0}
         self.assertEqual(largest_of([{"h0": 5.0}, worn], [[{"h0": -100.0}]]), 8.0)
@@ -495,7 +537,9 @@ class PageTest(FolderTest):
         if text is not None:
             self.scene = self.write("rig.toml", text)
         out = self.ask("report", self.scene, "-o", self.folder / name, *more)
-        return out, (self.folder / name / "report.html").read_text(encoding="utf-8"), json.loads((self.folder / name / "summary.json").read_text())
+        return out, (self.folder / name
+                     / "report.html").read_text(encoding="utf-8"), json.loads((self.folder / name
+                                                                               / "summary.json").read_text())
 
     @staticmethod
     def words(page):
@@ -517,7 +561,8 @@ class PageTest(FolderTest):
 
     def assertChinese(self, text):
         self.assertRegex(text, "[\u4e00-\u9fff]")
-        left = {one for one in re.findall(r"[A-Za-z]+", re.sub(r"\b[0-9a-f]{16}\b|\d+\.\d+\.\d+|https?:\S+|\{[^{}]*\}", " ", text))} - LATIN
+        left = ({one for one in re.findall(r"[A-Za-z]+", re.sub(r"\b[0-9a-f]{16}\b|\d+\.\d+\.\d+|https?:\S+|\{[^{}]*\}",
+                                                                " ", text))} - LATIN)
         self.assertEqual(left, set(), text[:3000])
 
     def test_whole_page_in_chinese(self):
@@ -534,7 +579,8 @@ class PageTest(FolderTest):
         self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
 
     def test_chinese_with_failures_and_other_units(self):
-        """Analyses that fail or are left out, notes, another system of units: nothing of it is English, but what the library itself wrote."""
+        """Analyses that fail or are left out, notes, another system of units: nothing of it is English, but what the
+        library itself wrote."""
         text = SCENE.replace('load = "2 kN"\n', '').replace('end = "20 ms"\n', '')
         text = re.sub(r"\[speeds\].*", "", FATIGUE.sub("", text), flags=re.DOTALL).replace('push = "100 kN"\n', "")
         for system in ("field", "mine"):
@@ -547,13 +593,15 @@ class PageTest(FolderTest):
         _, page, _ = self.page()
         self.assertIn('<html lang="en">', page)
         self.assertNotRegex(page.split('id="plotly"')[0].replace("演示钻孔", ""), "[\u4e00-\u9fff]")
-        for part in ("Limits that must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4", "only 30 to 300 rpm", "dip +5.0 deg"):
+        for part in ("Limits that must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4",
+                     "only 30 to 300 rpm", "dip +5.0 deg"):
             self.assertIn(part, page)
 
     def test_remarks_on_the_scene_file_in_chinese(self):
         """A mass for a force, and a survey that begins below the collar."""
         self.write("survey.csv", "depth [m],dip [deg],azimuth [deg]\n5,5,90\n20,5,90\n")
-        text = SCENE.replace('pull = "100 kN"', 'pull = "10 t"').replace('dip = "5 deg"\nazimuth = "90 deg"', 'survey_file = "survey.csv"').replace(
+        text = SCENE.replace('pull = "100 kN"', 'pull = "10 t"').replace('dip = "5 deg"\nazimuth = "90 deg"',
+                                                                         'survey_file = "survey.csv"').replace(
             'name = "main"', 'name = "main"\nstart_depth = "5 m"')
         out, page, _ = self.page("--language", "zh", text=text)
         self.assertIn("是质量单位：按其重量取值", page)
@@ -565,16 +613,20 @@ class PageTest(FolderTest):
         browser = shutil.which("chromium")
         if browser is None:
             self.skipTest("not there: chromium; the page was not looked at")
-        text = SCENE.replace('dip = "5 deg"', 'dip = "-60 deg"').replace("[run]", '[results]\nvtk_interval = "1 s"\n[run]')
+        text = SCENE.replace('dip = "5 deg"',
+                             'dip = "-60 deg"').replace("[run]", '[results]\nvtk_interval = "1 s"\n[run]')
         _, page, _ = self.page("--language", "zh", text=text)
-        frame = self.write("frame.html", f"""<html><body><iframe id="phone" src="file://{self.folder}/out/report.html" width="360" height="700"></iframe>
+        frame = self.write("frame.html",
+                           f"""<html><body><iframe id="phone" src="file://{self.folder}/out/report.html" width="360" height="700"></iframe>
 <script>setInterval(()=>{{const inside=document.getElementById("phone").contentDocument;
 document.body.dataset.width=inside.documentElement.scrollWidth;document.body.dataset.ready=inside.body.dataset.drawn;
 document.body.dataset.trouble=inside.getElementById("problems").dataset.count;
 document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly-plot,.narrow svg,.card")].map(one=>one.getBoundingClientRect().right))}},500)
-</script></body></html>""")
-        done = subprocess.run([browser, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader",
-                               "--allow-file-access-from-files", "--virtual-time-budget=30000", "--dump-dom", f"file://{frame}"],
+</script></body></html>""")  # noqa: E501
+        done = subprocess.run([browser, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
+                               "--enable-unsafe-swiftshader",
+                               "--allow-file-access-from-files", "--virtual-time-budget=30000", "--dump-dom",
+                               f"file://{frame}"],
                               capture_output=True, text=True, timeout=300, env={**os.environ, "HOME": str(self.folder)})
         found = dict(re.findall(r'data-(\w+)="([\d.]+)"', done.stdout))
         self.assertEqual(found.get("ready"), str(page.count('class="figure"')), found)
@@ -583,7 +635,8 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.assertLessEqual(float(found["widest"]), 360.0)
 
     def test_failing_analysis_says_why_in_the_language(self):
-        study = report.Study(scene.load(self.scene), results.CommandOutput(None, "x.toml", scene.load(self.scene), "report", True))
+        study = report.Study(scene.load(self.scene), results.CommandOutput(None, "x.toml", scene.load(self.scene),
+                                                                           "report", True))
         study._speeds = lambda: (_ for _ in ()).throw(ArithmeticError("no solution"))
         study.ask()
         tile = next(one for one in study.tiles if one.title == "Critical speeds")
@@ -607,14 +660,18 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.assertIn(f"smallest {verdict.shown(margins[0], 'N')}", tile["text"])
         self.assertIn(f"median {verdict.shown(margins[6], 'N')}", tile["text"])
         self.assertIn("by the static state of each sample", tile["text"])
-        studied = json.loads((self.folder / "study" / "summary.json").read_text(encoding="utf-8"))["demands"]["pull"]["percentiles"]["P95"]
-        self.assertIn(f"the demand is {verdict.shown(studied['value'], 'N')} or less severe, {100 * studied['share']:.3g} % of the limit", tile["text"])
+        studied = json.loads((self.folder / "study"
+                              / "summary.json").read_text(encoding="utf-8"))["demands"]["pull"]["percentiles"]["P95"]
+        self.assertIn(f"the demand is {verdict.shown(studied['value'], 'N')} or less severe, "
+                      f"{100 * studied['share']:.3g} % of the limit", tile["text"])
         self.assertIn("Margins of the study", page)
         self.assertIn("Probability: any failure", out)
-        self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language", "zh")[1]).replace("pull", "").replace("study", ""))
+        self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language",
+                                                "zh")[1]).replace("pull", "").replace("study", ""))
 
     def test_margins_that_are_infinite_or_not_known(self):
-        """A string that locks up has the smallest margin there is; a sample without one of its margins has no smallest one; limits that vary are named."""
+        """A string that locks up has the smallest margin there is; a sample without one of its margins has no smallest
+        one; limits that vary are named."""
         self.assertEqual(report_probability._known([-math.inf, math.nan, 1.0]), [-math.inf, 1.0])
         for row in ((0.5, math.nan), (math.nan, -1.0)):
             self.assertTrue(math.isnan(report_probability._least(row)))
@@ -636,19 +693,24 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         other = self.write("other.toml", (SCENE + STUDY).replace('"2 kN"', '"3 kN"'))
         text = self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
         self.assertIn("is a study of another scene", text)
-        self.assertIn("no complete study", self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "none", status=2))
+        self.assertIn("no complete study", self.ask("report", other, "-o", self.folder / "x", "--probability",
+                                                    self.folder / "none", status=2))
         before = (self.folder / "study" / "summary.json").read_bytes()
-        self.assertIn("give another --output", self.ask("report", self.scene, "-o", self.folder / "study", "--probability", self.folder / "study", status=2))
+        self.assertIn("give another --output", self.ask("report", self.scene, "-o", self.folder / "study",
+                                                        "--probability", self.folder / "study", status=2))
         self.assertEqual((self.folder / "study" / "summary.json").read_bytes(), before)
 
     def test_no_failure_seen_is_no_zero(self):
         from drillmbd.report_probability import Outcome, amount
-        one = Outcome("x", {"probability": 0.0, "low": 0.0, "high": 0.26, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 0})
+        one = Outcome("x", {"probability": 0.0, "low": 0.0, "high": 0.26, "confidence": 0.95, "failures": 0,
+                            "samples": 12, "lost": 0})
         self.assertEqual(one.value, "at most 26 %")
-        lost = Outcome("x", {"probability": None, "low": 0.0, "high": 1.0, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 12})
+        lost = Outcome("x", {"probability": None, "low": 0.0, "high": 1.0, "confidence": 0.95, "failures": 0,
+                             "samples": 12, "lost": 12})
         self.assertEqual(lost.value, "not computed")
         si = unit_systems.Units()
-        self.assertEqual([amount(1500.0, unit, si) for unit in ("N", "-", "s", "m/s2")], ["1.5 kN", "1.5e+03", "1.5e+03 s", "1.5e+03 m/s2"])
+        self.assertEqual([amount(1500.0, unit, si) for unit in ("N", "-", "s", "m/s2")],
+                         ["1.5 kN", "1.5e+03", "1.5e+03 s", "1.5e+03 m/s2"])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Tests of scene files: units, shipped scenes against the C program and themselves, file to model to file, and bad files:
-each fault reported with its line, key and bound, and nothing but SceneError whatever the bytes."""
+"""Tests of scene files: units, shipped scenes against the C program and themselves, file to model to file, and bad
+files: each fault reported with its line, key and bound, and nothing but SceneError whatever the bytes."""
 import json
 import math
 import os
@@ -282,7 +282,7 @@ concentration = 2
 part = "feed"
 scale = "part"
 factor_max = "100 kN"
-"""
+"""  # noqa: E501
 
 # The same rig with [[sub]]s, and with bodies, strings and joints where these place them.
 SUBS = """
@@ -405,8 +405,10 @@ class UnitsTest(unittest.TestCase):
 
     def test_other_kinds_are_refused(self):
         for text, wanted in (("120 kg", "m/s"), ("5 Hz", "rad/s"), ("60 rpm", "Hz"), (5, "m"), ("5", "m"), ("1", "rad"),
-                             ("mm", "m"), ("5 furlongs per", "m"), (True, "m"), (None, "m"), ([1], "m"), ("1e999 m", "m"),
-                             ("nan m", "m"), ("5 m", "N, N m"), ("5 m", "-"), ("1 __import__('os')", "m"), ("5 ()", "m")):
+                             ("mm", "m"), ("5 furlongs per", "m"), (True, "m"), (None, "m"), ([1], "m"),
+                             ("1e999 m", "m"),
+                             ("nan m", "m"), ("5 m", "N, N m"), ("5 m", "-"), ("1 __import__('os')", "m"),
+                             ("5 ()", "m")):
             with self.assertRaises(units.UnitError, msg=text):
                 units.parse(text, wanted)
 
@@ -445,8 +447,10 @@ class SubTest(unittest.TestCase):
     def test_faults(self):
         for change, says in (
                 (('mass = "20 kg"', 'mass = "-1 kg"'), "mass"), (('mass = "20 kg"', 'weight = "20 kg"'), "weight"),
-                (('length = "0.3 m"', 'length = "-3 m"'), "length = -3, must be"), (('string = "middle"', 'string = "upper"'), "take string 1"),
-                (('string = "middle"', 'string = "string-2"'), "made after this"), (('name = "knuckle"', 'name = "upper"'), "every name once"),
+                (('length = "0.3 m"', 'length = "-3 m"'), "length = -3, must be"),
+                (('string = "middle"', 'string = "upper"'), "take string 1"),
+                (('string = "middle"', 'string = "string-2"'), "made after this"),
+                (('name = "knuckle"', 'name = "upper"'), "every name once"),
                 (('name = "collar"', 'position = [0, 0, 0]'), "position"),
                 (('section = {pipes = {length = "1 m"}}', ''), "[[sub.section.pipes]]"),
                 (('body = {name = "collar", mass = "20 kg"}', 'body = 3'), "table"), (('[[sub]]', '[sub]'), "TOML")):
@@ -485,7 +489,8 @@ class DividedTest(unittest.TestCase):
     def test_usual_damping(self):
         """Pipes of a file are damped unless it says otherwise; saved files keep either."""
         def damping(loaded):
-            return [arguments[1].get("damping_time", 0.0) for name, arguments in loaded.model.calls if name == "add_pipes"]
+            return [arguments[1].get("damping_time", 0.0) for name, arguments in loaded.model.calls
+                    if name == "add_pipes"]
         self.assertEqual(damping(scene.loads(COLLARS)), [1e-4, 1e-4])
         none = scene.loads(COLLARS.replace("count = 3", "count = 3\ndamping_time = 0"))
         self.assertEqual(damping(none), [0.0, 1e-4])
@@ -494,13 +499,17 @@ class DividedTest(unittest.TestCase):
         self.assertEqual(scene.loads(scene.saves(one)).model.info().elements, one.model.info().elements)
 
     def test_given_numbers_and_rods_are_kept(self):
-        given = scene.loads(COLLARS.replace('length = "37', 'elements = 1\nlength = "37').replace("count = 3", "count = 3\nelements = 2"))
+        given = scene.loads(COLLARS.replace('length = "37',
+                                            'elements = 1\nlength = "37').replace("count = 3",
+                                                                                  "count = 3\nelements = 2"))
         self.assertEqual((given.divided, given.model.info().elements), ([], 7))
         with given.new_sim() as sim:
             self.assertIn("set elements", sim.check_text())
-        rods = COLLARS.replace("9.4 m", "3 m").replace("37.72 m", "1 m").replace("127 mm", "73 mm").replace("108 mm", "61 mm")
+        rods = COLLARS.replace("9.4 m", "3 m").replace("37.72 m", "1 m").replace("127 mm",
+                                                                                 "73 mm").replace("108 mm", "61 mm")
         self.assertEqual(scene.loads(rods).divided, [])
-        for change in (('length = "9.4 m"', 'kind = "axial-torsional"\nlength = "9.4 m"'), ("[hole]", "[compile]\npipe_kind = \"axial-torsional\"\n[hole]")):
+        for change in (('length = "9.4 m"', 'kind = "axial-torsional"\nlength = "9.4 m"'),
+                       ("[hole]", "[compile]\npipe_kind = \"axial-torsional\"\n[hole]")):
             self.assertNotIn(0, [one.first for one in scene.loads(COLLARS.replace(*change)).divided])
 
 
@@ -524,7 +533,8 @@ class ShippedTest(unittest.TestCase):
             self.assertEqual(after_run(second), after_run(first))
 
     def test_saved_files_keep_comments_and_units(self):
-        """Every comment of every shipped scene stays at the end of the line of its key, or before it; a value has its unit still."""
+        """Every comment of every shipped scene stays at the end of the line of its key, or before it; a value has its
+        unit still."""
         for path in [*SCENES, ROOT / "examples" / "failure_probability" / "rig.toml"]:
             text = path.read_text(encoding="utf-8")
             saved = scene.saves(scene.load(path))
@@ -540,27 +550,33 @@ class ShippedTest(unittest.TestCase):
             self.assertGreater(known, 0, path)
             self.assertEqual(lines[0], text.splitlines()[0])
         saved = scene.saves(scene.load(ROOT / "examples" / "scenes" / "drainage_300m.toml"))
-        for line in ('diameter = "96 mm"', 'h1 = "120 rpm"', 'torque = "3 kN m"', 'static = true', '[fatigue]  # an assumption',
+        for line in ('diameter = "96 mm"', 'h1 = "120 rpm"', 'torque = "3 kN m"', 'static = true',
+                     '[fatigue]  # an assumption',
                      '# written out here: survey_file = "drainage_300m.csv"'):
             self.assertIn(line, saved)
 
     def test_saved_files_have_all_defaults(self):
-        """Each field of the library with a number as its default is in the file; another default of the library changes nothing then."""
+        """Each field of the library with a number as its default is in the file; another default of the library changes
+        nothing then."""
         text = scene.saves(scene.load(ROOT / "examples" / "scenes" / "reference_rig.toml"))
         import tomllib
         saved = tomllib.loads(text)
-        for struct, table in (("environment", saved["environment"]), ("hole", saved["hole"]), ("pipes", saved["string"][0]["pipes"][0]),
-                              ("bit", saved["bit"][0]), ("drive", saved["drive"][0]), ("sim", saved["sim"]), ("static", saved["static"]),
+        for struct, table in (("environment", saved["environment"]), ("hole", saved["hole"]),
+                              ("pipes", saved["string"][0]["pipes"][0]),
+                              ("bit", saved["bit"][0]), ("drive", saved["drive"][0]), ("sim", saved["sim"]),
+                              ("static", saved["static"]),
                               ("modes", saved["modes"]), ("compile", saved["compile"])):
             usual = fields.DEFINITIONS[struct]().describe(every=True)
             for key, field in fields.fields_of(fields.DEFINITIONS[struct]).items():
-                if field.kind in ("quantity", "integer", "flags") and isinstance(usual[key], (int, float)) and 0 <= usual[key] < 1e30:
+                if field.kind in ("quantity", "integer",
+                                  "flags") and isinstance(usual[key], (int, float)) and 0 <= usual[key] < 1e30:
                     self.assertIn(key, table, struct)
         self.assertEqual(saved["run"]["static"], True)
         self.assertEqual([line for line in text.splitlines() if "1e+30" in line], [])
 
     def test_saved_after_a_change(self):
-        """Values that the command line replaces are written, not those of the file; the first line stays first, the last comment last."""
+        """Values that the command line replaces are written, not those of the file; the first line stays first, the
+        last comment last."""
         text = '# mine\n\n[hole]\n# wide\ndiameter = "94 mm" # bit\n[[string]]\npipes = {count = 2} # two\n# the end\n'
         saved = scene.saves(scene.loads(text, changes={"hole.diameter": "100 mm", "string[0].pipes.length": "2 m"}))
         self.assertTrue(saved.startswith("# mine\n"), saved)
@@ -663,16 +679,22 @@ curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
         """Refused when the file is read, with line, key, value and range, by every command."""
         for old, new, fault in (
                 ("spectral_radius = 0.9", "spectral_radius = 3", "sim.spectral_radius = 3: must be 0 .. 1"),
-                ("spectral_radius = 0.9", "newton_tolerance = 0.5", "sim.newton_tolerance = 0.5: must be 0 or 1e-14 .. 0.1"),
-                ("spectral_radius = 0.9", 'tolerance_rotation = "-1 deg"', 'sim.tolerance_rotation = "-1 deg": must be > 0 (in rad)'),
+                ("spectral_radius = 0.9", "newton_tolerance = 0.5",
+                 "sim.newton_tolerance = 0.5: must be 0 or 1e-14 .. 0.1"),
+                ("spectral_radius = 0.9", 'tolerance_rotation = "-1 deg"',
+                 'sim.tolerance_rotation = "-1 deg": must be > 0 (in rad)'),
                 ('slip_axial = "1 mm/s"', "tolerance = -1", "static.tolerance = -1: must be 1e-15 .. 0.1"),
-                ('frequency_high = "10 Hz"', 'frequency_high = "0.5 Hz"', 'response.frequency_high = "0.5 Hz": must be above frequency_low, 1 Hz'),
+                ('frequency_high = "10 Hz"', 'frequency_high = "0.5 Hz"',
+                 'response.frequency_high = "0.5 Hz": must be above frequency_low, 1 Hz'),
                 ('frequency_high = "10 Hz"', "points = 0", "response.points = 0: must be 1 .. 1e+06"),
-                ('speed_high = "100 rpm"', 'speed_low = "500 rpm"', 'speeds.speed_low = "500 rpm": must be below speed_high, 30 rad/s by default'),
+                ('speed_high = "100 rpm"', 'speed_low = "500 rpm"',
+                 'speeds.speed_low = "500 rpm": must be below speed_high, 30 rad/s by default'),
                 ("order = 2", "order = -2", "speeds.order[0].order = -2: must be 0.001 .. 1000"),
                 ("slope = 4", "slope = 0.5", "fatigue.slope = 0.5: must be 1 .. 50"),
-                ("[static]", '[modes]\nband = ["9 Hz", "2 Hz"]\n[static]', "modes.band = ['9 Hz', '2 Hz']: must increase"),
-                ('factor_max = "100 kN"', 'factor_max = "-1 N"', 'buckling.factor_max = "-1 N": must be 1e-300 .. 1e+300')):
+                ("[static]", '[modes]\nband = ["9 Hz", "2 Hz"]\n[static]',
+                 "modes.band = ['9 Hz', '2 Hz']: must increase"),
+                ('factor_max = "100 kN"', 'factor_max = "-1 N"',
+                 'buckling.factor_max = "-1 N": must be 1e-300 .. 1e+300')):
             found = problems(EVERYTHING.replace(old, new))
             self.assertEqual([str(one) for one in found], [fault], new)
 
@@ -711,14 +733,17 @@ place_b = "rotor"
 name = "motor"
 part = "bearing"
 motor = {flow = "1200 l/min", table_flow = "1800 l/min", table = [["0 rpm", "900 N m"], ["90 rpm", "700 N m"], ["150 rpm", "0 N m"]]}
-"""
+"""  # noqa: E501
         found = scene.loads(text)
         drive = dict(found.model.calls)["add_drive"][0]
         self.assertEqual([round(one, 9) for pair in drive["gain_table"] for one in pair],
-                         [round(one, 9) for pair in ((0.0, 0.0), (4 * math.pi / 3, 700.0), (10 * math.pi / 3, 900.0)) for one in pair])
+                         [round(one, 9) for pair in ((0.0, 0.0), (4 * math.pi / 3, 700.0), (10 * math.pi / 3, 900.0))
+                          for one in pair])
         self.assert_saved(found)
-        for wrong, wanted in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"), ("table_flow", "flux"),
-                            ('"bearing"\nmotor', '"bearing"\ngain = 1\nmotor'), ('["90 rpm", "700 N m"]', '["200 rpm", "700 N m"]')):
+        for wrong, wanted in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"),
+                              ("table_flow", "flux"),
+                            ('"bearing"\nmotor', '"bearing"\ngain = 1\nmotor'),
+                              ('["90 rpm", "700 N m"]', '["200 rpm", "700 N m"]')):
             with self.assertRaisesRegex(scene.SceneError, "motor|gain"):
                 scene.loads(text.replace(wrong, wanted))
 
@@ -754,8 +779,8 @@ name = "pdc"
             scene.saves(model)
 
     def test_worn_gear(self):
-        """A speed per revolution moves the head as a function of the caller with the same formulas does, to rounding; so it does in the saved
-        file, to the bit."""
+        """A speed per revolution moves the head as a function of the caller with the same formulas does, to rounding;
+        so it does in the saved file, to the bit."""
         gear = scene.loads(GEAR)
         turning = gear.model.calls[0][1][0]
 
@@ -766,9 +791,11 @@ name = "pdc"
             sine, cosine = math.sin(3.0 * theta), math.cos(3.0 * theta)
             return 0.05 * w * sine, 0.05 * (rate * sine + 3.0 * w * w * cosine), 0.05 / 3.0 * (1.0 - cosine)
 
-        calls = [(name, (mbd.Segment(function=worn, provides=3).describe(),) if name == "add_time_function" and "of" in arguments[0] else arguments)
+        calls = [(name, (mbd.Segment(function=worn, provides=3).describe(),) if name == "add_time_function"
+                  and "of" in arguments[0] else arguments)
                  for name, arguments in gear.model.calls]
-        with gear.new_sim() as one, remake(mbd.Model, calls).sim() as other, scene.loads(scene.saves(gear)).new_sim() as saved:
+        with gear.new_sim() as one, remake(mbd.Model,
+                                           calls).sim() as other, scene.loads(scene.saves(gear)).new_sim() as saved:
             for sim in (one, other, saved):
                 sim.run(0.1, step=1e-3)
             self.assertEqual(one.hash(), saved.hash())
@@ -779,10 +806,12 @@ name = "pdc"
             self.assertAlmostEqual(one.drive("head").force, other.drive("head").force, 6)
 
     def test_models_of_programs(self):
-        """Drives of a constant value and drives that hold, and a time function that is used per revolution alone, are read again as they are."""
+        """Drives of a constant value and drives that hold, and a time function that is used per revolution alone, are
+        read again as they are."""
         model = mbd.Model()
         speed = model.add_time_function(12.0)
-        worn = model.add_time_function(12.0, mbd.Segment(kind=mbd.SEGMENT_PER_REVOLUTION, of=speed, share=0.05, h1=0.5, order=2.0, phase=0.1))
+        worn = model.add_time_function(12.0, mbd.Segment(kind=mbd.SEGMENT_PER_REVOLUTION, of=speed, share=0.05, h1=0.5,
+                                                         order=2.0, phase=0.1))
         body = model.add_body(mass=3.0)
         model.add_pipes(3)
         model.add_drive(component=mbd.RX, time_function=worn)
@@ -791,7 +820,8 @@ name = "pdc"
         model.add_drive(part=body, component=mbd.RZ, kind=mbd.DRIVE_LOAD, value=-4.0)
         model.compile()
         again = scene.loads(scene.saves(model))
-        self.assertEqual([one.get("h0", 0.0) for name, (one, *_) in again.model.calls if name == "add_time_function"], [12.0, 12.0, 0.0, 0.25, -4.0])
+        self.assertEqual([one.get("h0", 0.0) for name, (one, *_) in again.model.calls if name == "add_time_function"],
+                         [12.0, 12.0, 0.0, 0.25, -4.0])
         with model.sim() as first, again.new_sim() as second:
             for sim in (first, second):
                 sim.run(0.05, step=1e-3)
@@ -801,11 +831,15 @@ name = "pdc"
         for old, new, wanted in (
                 ('of = "turning"', 'of = "later"', "must name a time function that stands before this one"),
                 ('of = "turning"', 'of = "worn"', "must name a time function that stands before this one"),
-                ("order = 3}", 'order = 3, table = [["0 s", 0], ["1 s", "2 rpm"]]}', 'must be "table" or "periodic" with a table'),
+                ("order = 3}", 'order = 3, table = [["0 s", 0], ["1 s", "2 rpm"]]}',
+                 'must be "table" or "periodic" with a table'),
                 ("order = 3", "order = 0", "order"), ('share = "5 %"', 'share = "5 m"', "'m'"),
                 ('kind = "per-revolution"', 'kind = "harmonic"', 'belongs to segments with kind = "per-revolution"'),
-                ('component = "rx"\ntime_function = "turning"', 'component = "x"\ntime_function = "0 m/s"', "this time function is in m/s; use h1"),
-                ('h1 = "200 rpm"}', 'h1 = "200 rpm"}\n[[time_function]]\nname = "t"\nsegment = {kind = "periodic", table = [["0 s", 0], ["1 s", "2 rpm"]]}\nunit = "rpm"',
+                ('component = "rx"\ntime_function = "turning"', 'component = "x"\ntime_function = "0 m/s"',
+                 "this time function is in m/s; use h1"),
+                ('h1 = "200 rpm"}',
+                 'h1 = "200 rpm"}\n[[time_function]]\nname = "t"\nsegment = {kind = "periodic", table = [["0 s", 0], '
+                 '["1 s", "2 rpm"]]}\nunit = "rpm"',
                  "equal to the first value")):
             text = GEAR.replace(old, new)
             self.assertNotEqual(text, GEAR)
@@ -827,7 +861,8 @@ name = "pdc"
         for text in [path.read_text(encoding="utf-8") for path in SCENES] + [SMALL, EVERYTHING]:
             check.validate(tomllib.loads(text))
             check.validate(tomllib.loads(scene.saves(scene.loads(text, folder=ROOT / "examples" / "scenes"))))
-        for bad in ("[hole]\ndiametre = 1", "[hole]\nnormal_law = \"hertz\"", "[[drive]]\ntime_function = 3", "strings = 1"):
+        for bad in ("[hole]\ndiametre = 1", "[hole]\nnormal_law = \"hertz\"", "[[drive]]\ntime_function = 3",
+                    "strings = 1"):
             self.assertFalse(check.is_valid(tomllib.loads(bad)), bad)
 
 
@@ -877,13 +912,17 @@ class BadFilesTest(unittest.TestCase):
                  "output[0].place.pipe", "0 .. 2")
 
     def test_no_second_fault(self):
-        """A misspelt table or name is one fault; the time function that is not used because of it is none. Alone it is one."""
-        text = ('[[time_function]]\nname = "load"\nsegment = {h0 = "2 kN"}\n[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
+        """A misspelt table or name is one fault; the time function that is not used because of it is none. Alone it is
+        one."""
+        text = ('[[time_function]]\nname = "load"\nsegment = {h0 = "2 kN"}\n[hole]\ndiameter = "94 '
+                'mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
                 '[[bit]]\nload = "load"\n')
         mbd.scene.loads(text)
-        for old, new, wanted in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]), ('load = "load"', 'load = "lead"', ["bit[0].load"]),
+        for old, new, wanted in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]),
+                                 ('load = "load"', 'load = "lead"', ["bit[0].load"]),
                                ('[[bit]]\nload = "load"\n', "", ["is used by no drive, load or bit"]),
-                               ('diameter = "94 mm"', 'diameter = "20 mm"', ["string[0]: pipes of string 0: outer_diameter"])):
+                               ('diameter = "94 mm"', 'diameter = "20 mm"',
+                                ["string[0]: pipes of string 0: outer_diameter"])):
             with self.assertRaises(mbd.scene.SceneError) as caught:
                 mbd.scene.loads(text.replace(old, new))
             self.assertEqual(len(caught.exception.problems), len(wanted), str(caught.exception))
@@ -894,7 +933,8 @@ class BadFilesTest(unittest.TestCase):
         found = problems(SMALL.replace('time_function = "feed"', 'time_function = "fed"'))
         self.assertIn("drive[0].time_function", [one.key for one in found])
         self.assertTrue(any("names no time function; did you mean feed?" in str(one) for one in found))
-        found = [str(one) for one in problems(SMALL.replace('time_function = "feed"', 'time_function = "nope"'))]  # no drives among the candidates
+        # no drives among the candidates
+        found = [str(one) for one in problems(SMALL.replace('time_function = "feed"', 'time_function = "nope"'))]
         self.assertTrue(any(one.endswith("names no time function; possible are feed") for one in found), found)
 
     def test_all_faults_at_once(self):
@@ -942,7 +982,8 @@ class BadFilesTest(unittest.TestCase):
         self.assertEqual(reported('survey_file = "s.csv"', feet), "")
         for csv, part in ((None, "could not be read"), ("", "is empty"), (heads, "at least two stations"),
                           (heads + "0, ninety, 0\n30, 95, 1\n", 'line 2, column 2 (inclination [deg]) = "ninety"'),
-                          (heads + "0, 90\n30, 95, 1\n", "azimuth is empty"), ("depth [kg], i [deg], a [deg]\n", "heads"),
+                          (heads + "0, 90\n30, 95, 1\n", "azimuth is empty"),
+                          ("depth [kg], i [deg], a [deg]\n", "heads"),
                           (heads + "30, 90, 0\n0, 95, 1\n", "must"), (heads + "0, 900, 0\n30, 95, 1\n", "must")):
             self.assertIn(part, reported('survey_file = "s.csv"', csv), csv)
         self.assertIn("at least two rows", reported("survey = []"))
@@ -972,7 +1013,8 @@ class BadFilesTest(unittest.TestCase):
         rows = EVERYTHING.splitlines()
         for number, row in enumerate(rows):
             if "=" in row:
-                for value in draw.sample(['"x"', "3", "-1e300", "nan", "true", "[]", "{}", '["1 m", 2]', "1979-05-27", '""',
+                for value in draw.sample(['"x"', "3", "-1e300", "nan", "true", "[]", "{}", '["1 m", 2]', "1979-05-27",
+                                          '""',
                                           '"-1 m"', "[[[]]]", '{part = "main", pipe = -1}'], 5):
                     problems("\n".join(rows[:number] + [row.split("=")[0] + "= " + value] + rows[number + 1:]))
 
@@ -1020,7 +1062,8 @@ limit = "5 N m"
         saved = scene.saves(made)
         self.assertIn('level = "100 N m"', saved)  # as the file has it
         self.assertTrue(scene.loads(saved).model.same_scene(made.model))
-        for wrong in (self.SCENE.replace("100 N m", "100 N"), self.SCENE.replace("2 kN", "2 N m"), self.SCENE.replace("5 N m", "5 N")):
+        for wrong in (self.SCENE.replace("100 N m", "100 N"), self.SCENE.replace("2 kN", "2 N m"),
+                      self.SCENE.replace("5 N m", "5 N")):
             with self.assertRaisesRegex(scene.SceneError, "has the unit"):
                 scene.loads(wrong)
 

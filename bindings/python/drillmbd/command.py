@@ -49,7 +49,7 @@ frames, angles and signs: azimuth is clockwise from north, inclination from the 
 thrust and compression are negative hook loads and axial forces. All with a drawing: examples/conventions/README.md
 
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
-"""
+"""  # noqa: E501
 
 FMU = """examples:
   drillmbd fmu rig.toml -o rig.fmu                for importers of FMI 3.0
@@ -58,7 +58,7 @@ FMU = """examples:
 
 [[input]] of the scene become inputs and tunable parameters of the unit, [[output]] its outputs, [[event]] counts and, where the importer
 allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke must
-be installed where it runs."""
+be installed where it runs."""  # noqa: E501
 
 LIVE = """examples:
   drillmbd live hole.toml -o hole.html                 opens in any browser, without a network
@@ -66,7 +66,7 @@ LIVE = """examples:
 
 The page holds the scene, the library and the view: the string in its hole, sliders for rotation, feed, load of the bit, friction, stuck places,
 diameter of the hole and all [[input]] of the scene, traces of torque, thrust, bit speed and contact with [limits]. [run] static and [run] step
-hold there too, so that it computes the same run as drillmbd run. It needs the package of JavaScript: bindings/web/build."""
+hold there too, so that it computes the same run as drillmbd run. It needs the package of JavaScript: bindings/web/build."""  # noqa: E501
 
 PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     on all processors
@@ -81,20 +81,23 @@ PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --engine dask --address tcp://10.0.0.1:8786
 
 All samples are kept in out/study.h5, which can be read while it grows (drillmbd.probability.study.read_rows). It is refused where
-scene, code or settings are others than those it was made with."""
-STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "of the rig, instead of [limits] push", "torque": "of the rig, instead of [limits] torque",
-         "overpull": "pulled beyond the weight to see how far it is free", "stretch": "by which the rig end came up then"}
+scene, code or settings are others than those it was made with."""  # noqa: E501
+STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "of the rig, instead of [limits] push",
+         "torque": "of the rig, instead of [limits] torque",
+         "overpull": "pulled beyond the weight to see how far it is free",
+         "stretch": "by which the rig end came up then"}
 SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
 
 Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then.
-After Ctrl-C the same line continues: cases that are complete in the folder are not computed again."""
+After Ctrl-C the same line continues: cases that are complete in the folder are not computed again."""  # noqa: E501
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    found = argparse.ArgumentParser(prog="drillmbd", description="Multibody dynamics of drill strings from scene files.",
+    found = argparse.ArgumentParser(prog="drillmbd",
+                                    description="Multibody dynamics of drill strings from scene files.",
                                     epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
     found.add_argument("--version", action="version", version=f"drillmbd {__version__}")
     commands = found.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -102,70 +105,102 @@ def parser() -> argparse.ArgumentParser:
                        ("static", "computes the static equilibrium"), ("run", "runs the scene in time"),
                        ("modes", "computes natural frequencies about the static equilibrium"),
                        ("response", "computes the linear response to excitations about the static equilibrium"),
-                       ("speeds", "computes rotary speeds to avoid"), ("buckle", "computes critical factors, and thrusts at which the string buckles"),
-                       ("torque-drag", "computes hook load and torque by depth as a soft string, reach of the rig, friction from measurements"),
-                       ("rod-by-rod", "computes thrust, pull, torque and make-up torque for each number of rods in the hole"),
-                       ("stuck", "computes pull, push and torque that arrive at a stuck bit, and the free point by stretch"),
+                       ("speeds", "computes rotary speeds to avoid"),
+                       ("buckle", "computes critical factors, and thrusts at which the string buckles"),
+                       ("torque-drag",
+                        "computes hook load and torque by depth as a soft string, reach of the rig, friction from "
+                        "measurements"),
+                       ("rod-by-rod",
+                        "computes thrust, pull, torque and make-up torque for each number of rods in the hole"),
+                       ("stuck",
+                        "computes pull, push and torque that arrive at a stuck bit, and the free point by stretch"),
                        ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
-        command.add_argument("--output", "-o", metavar="FOLDER", help="where tables, pictures and summary.json are written")
+        command.add_argument("--output", "-o", metavar="FOLDER",
+                             help="where tables, pictures and summary.json are written")
         command.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
-        command.add_argument("--units", choices=NAMES, help="of texts, tables and pictures, instead of [results] units: SI (default), field units "
-                             "(ft, lbf, psi) or mine units (m, kN, MPa); summary.json and files for ParaView stay in SI")
+        command.add_argument("--units", choices=NAMES,
+                             help="of texts, tables and pictures, instead of [results] units: SI (default), field "
+                                  "units "
+                             "(ft, lbf, psi) or mine units (m, kN, MPa); summary.json and files for ParaView stay "
+                             "in SI")
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
-            command.add_argument("--verify", action="store_true", help="runs the last tenth again with half the step and compares all outputs")
+            command.add_argument("--verify", action="store_true",
+                                 help="runs the last tenth again with half the step and compares all outputs")
         if name == "stuck":
-            for word, unit in (("pull", "kN"), ("push", "kN"), ("torque", "N m"), ("overpull", "kN"), ("stretch", "mm")):
+            for word, unit in (("pull", "kN"), ("push", "kN"), ("torque", "N m"), ("overpull", "kN"),
+                               ("stretch", "mm")):
                 command.add_argument(f"--{word}", metavar=word.upper(), help=STUCK[word] + f', as "20 {unit}"')
-            command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
+            command.add_argument("--friction", type=float, metavar="MU",
+                                 help="coefficient, instead of that of the wall")
         if name == "torque-drag":
-            command.add_argument("--depths", metavar="N|LIST", default="20", help='number of depths up to the described one '
+            command.add_argument("--depths", metavar="N|LIST", default="20",
+                                 help='number of depths up to the described one '
                                  '(default %(default)s), or depths as "100 m,200 m"')
         if name == "rod-by-rod":
-            command.add_argument("--make-up", metavar="TORQUE", help='of the joints of the rods, as "2 kN m"; left out: not assessed')
+            command.add_argument("--make-up", metavar="TORQUE",
+                                 help='of the joints of the rods, as "2 kN m"; left out: not assessed')
         if name in ("torque-drag", "rod-by-rod"):
-            command.add_argument("--weight-on-bit", metavar="FORCE", help='while drilling and sliding, as "20 kN"; left out: that of the scene')
-            command.add_argument("--torque-on-bit", metavar="TORQUE", help='while drilling, as "500 N m"; left out: estimated from the load')
-            command.add_argument("--block-weight", metavar="FORCE", help='of block and top drive, added to the hook loads')
-            command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
+            command.add_argument("--weight-on-bit", metavar="FORCE",
+                                 help='while drilling and sliding, as "20 kN"; left out: that of the scene')
+            command.add_argument("--torque-on-bit", metavar="TORQUE",
+                                 help='while drilling, as "500 N m"; left out: estimated from the load')
+            command.add_argument("--block-weight", metavar="FORCE",
+                                 help='of block and top drive, added to the hook loads')
+            command.add_argument("--friction", type=float, metavar="MU",
+                                 help="coefficient, instead of that of the wall")
         if name == "torque-drag":
-            command.add_argument("--frictions", metavar="LIST", help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
-            command.add_argument("--measured", metavar="FILE", help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
+            command.add_argument("--frictions", metavar="LIST",
+                                 help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
+            command.add_argument("--measured", metavar="FILE",
+                                 help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
         if name == "report":
-            command.add_argument("--language", choices=LANGUAGES, default="en", help="of the page and of the lines on the terminal: English "
+            command.add_argument("--language", choices=LANGUAGES, default="en",
+                                 help="of the page and of the lines on the terminal: English "
                                  "(default) or Chinese; summary.json stays English")
-            command.add_argument("--probability", metavar="FOLDER", help="--output of a study of this scene by drillmbd probability: its "
+            command.add_argument("--probability", metavar="FOLDER",
+                                 help="--output of a study of this scene by drillmbd probability: its "
                                  "estimates become part of the page")
-            command.add_argument("--live", action="store_true", help="the page runs the scene too, as that of drillmbd live does: with sliders and "
+            command.add_argument("--live", action="store_true",
+                                 help="the page runs the scene too, as that of drillmbd live does: with sliders and "
                                  "traces; needs the library as WebAssembly, which bindings/web/build makes")
         if name == "speeds":
-            command.add_argument("--check", nargs="?", type=int, const=12, default=0, metavar="N", help="runs N rotary speeds (12 where no number "
-                                 "is given) in time too and marks those where the torque oscillates or the lateral acceleration is large")
+            command.add_argument("--check", nargs="?", type=int, const=12, default=0, metavar="N",
+                                 help="runs N rotary speeds (12 where no number "
+                                 "is given) in time too and marks those where the torque oscillates or the lateral "
+                                 "acceleration is large")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
     sweep = commands.add_parser("sweep", help="repeats a command for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle",
+                                            "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
-                       "KEY=LOW:HIGH:COUNT; once for each key; keys between & change together: A & B=V1,V2 or A & B=V1 & W1,V2 & W2")
+                       "KEY=LOW:HIGH:COUNT; once for each key; keys between & change together: A & B=V1,V2 or A & B=V1 "
+                       "& W1,V2 & W2")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
     sweep.add_argument("--quiet", "-q", action="store_true")
     _add_probability(commands)
     _add_fmu(commands)
     _add_live(commands)
-    save = commands.add_parser("save", help="writes the scene with all values that decide the result, comments and units kept")
+    save = commands.add_parser("save",
+                               help="writes the scene with all values that decide the result, comments and units kept")
     save.add_argument("scene")
-    save.add_argument("target", help="the new file; - for the terminal; NAME.scene: a scene record for dmb_model_read, NAME.h: the same as an array of C")
+    save.add_argument("target",
+                      help="the new file; - for the terminal; NAME.scene: a scene record for dmb_model_read, NAME.h: "
+                           "the same as an array of C")
     commands.add_parser("schema", help="prints the JSON schema of scene files")
     keys = commands.add_parser("keys", help="lists the keys of scene files with unit, default and meaning")
     keys.add_argument("table", nargs="?", help="a table, as string.pipes; left out: the usual keys of all")
-    listed = commands.add_parser("catalogue", help="lists drill pipe, rods, collars and rigs that scene files name, with sources")
+    listed = commands.add_parser("catalogue",
+                                 help="lists drill pipe, rods, collars and rigs that scene files name, with sources")
     listed.add_argument("word", nargs="?", help="of the names or sources; left out: all")
-    listed.add_argument("--file", action="append", default=[], metavar="FILE", help="a catalogue of your own too; once for each")
+    listed.add_argument("--file", action="append", default=[], metavar="FILE",
+                        help="a catalogue of your own too; once for each")
     _add_new(commands)
     return found
 
@@ -175,13 +210,17 @@ def _add_new(commands: Any) -> None:
     text = "writes a commented scene from a few values"
     made = commands.add_parser("new", help=text, description=text)
     made.add_argument("kind", choices=list(OPTIONS))
-    made.add_argument("--output", "-o", metavar="FILE", help="the scene file, which must not exist yet; left out: the terminal")
+    made.add_argument("--output", "-o", metavar="FILE",
+                      help="the scene file, which must not exist yet; left out: the terminal")
     for name, (_, _, about) in OPTIONS["drainage"].items():
         defaults = ", ".join(f"{values[name][1]} ({kind})" for kind, values in OPTIONS.items())
         made.add_argument(f"--{name.replace('_', '-')}", metavar="VALUE", help=f"{about}; default {defaults}")
-    made.add_argument("--rods", metavar="NAME", help='of a catalogue or a size, as "phi 73 x 6.5" or "5 in 19.50 S135", instead of --rod and --bore; '
+    made.add_argument("--rods", metavar="NAME",
+                      help='of a catalogue or a size, as "phi 73 x 6.5" or "5 in 19.50 S135", instead of --rod and '
+                           '--bore; '
                       "an outer diameter alone as of --rod")
-    made.add_argument("--survey", metavar="FILE", help="of the hole, instead of --dip and --length: CSV, text with blanks, LAS 2.0, Excel")
+    made.add_argument("--survey", metavar="FILE",
+                      help="of the hole, instead of --dip and --length: CSV, text with blanks, LAS 2.0, Excel")
     made.add_argument("--rig", metavar="NAME", help="of a catalogue, for [limits]: drillmbd catalogue")
 
 
@@ -189,7 +228,8 @@ def _new(options: Any) -> int:
     from .new_options import OPTIONS
     from .scene import new
     try:
-        given = {name: getattr(options, name) for name in (*OPTIONS[options.kind], "rods", "rig", "survey") if getattr(options, name)}
+        given = {name: getattr(options, name) for name in (*OPTIONS[options.kind], "rods", "rig", "survey")
+                 if getattr(options, name)}
         text = new.text(options.kind, given, os.path.dirname(options.output or "") or ".")
     except ValueError as error:
         raise Usage(str(error)) from None
@@ -221,23 +261,29 @@ def _catalogue(options: Any) -> int:
 
 def _add_fmu(commands: Any) -> None:
     text = "writes the scene as a unit for co-simulation by the standard FMI"
-    asked = commands.add_parser("fmu", help=text, description=text, epilog=FMU, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked = commands.add_parser("fmu", help=text, description=text, epilog=FMU,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
     asked.add_argument("scene", help="a scene file (TOML) with [[output]], and [[input]] to be steered by")
     asked.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
-    asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi", help="of FMI (default %(default)s)")
-    asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER", help="the source code too; FOLDER: that of "
+    asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi",
+                       help="of FMI (default %(default)s)")
+    asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER",
+                       help="the source code too; FOLDER: that of "
                        "libdrillmbd's sources, where this package does not stand in it")
     asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
 def _add_live(commands: Any) -> None:
     text = "writes one HTML page that runs the scene in a browser, or computes the run that such a page saved"
-    asked = commands.add_parser("live", help=text, description=text, epilog=LIVE, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked = commands.add_parser("live", help=text, description=text, epilog=LIVE,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
     asked.add_argument("scene", help="a scene file (TOML)")
     asked.add_argument("--output", "-o", metavar="FILE", help="the page; left out: the name of the scene with .html")
-    asked.add_argument("--language", choices=LANGUAGES, default="en", help="of the page: English (default) or Chinese; titles, comments and names of "
+    asked.add_argument("--language", choices=LANGUAGES, default="en",
+                       help="of the page: English (default) or Chinese; titles, comments and names of "
                        "the scene file stay as they are")
-    asked.add_argument("--replay", metavar="LOG", help="a log that the page saved: computes its run and compares the hash of the state")
+    asked.add_argument("--replay", metavar="LOG",
+                       help="a log that the page saved: computes its run and compares the hash of the state")
     asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
@@ -248,25 +294,37 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
     asked.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
     asked.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
-    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"], help="analysis of each sample, instead of [variability] question: "
+    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"],
+                       help="analysis of each sample, instead of [variability] question: "
                        "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
-    asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES", help="a map of the probability over KEY=V1,V2,... or "
-                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key; keys between & change together: A & B=V1,V2 "
+    asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
+                       help="a map of the probability over KEY=V1,V2,... or "
+                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key; keys between & "
+                       "change together: A & B=V1,V2 "
                        "or A & B=V1 & W1,V2 & W2")
-    asked.add_argument("--until", metavar="RULE", help='adds samples up to --samples until half of the interval is "30%%" of the probability, or it is '
+    asked.add_argument("--until", metavar="RULE",
+                       help='adds samples up to --samples until half of the interval is "30%%" of the probability, or '
+                            'it is '
                        '"below 1e-2" or above')
-    asked.add_argument("--samples", type=int, metavar="N", help="instead of [variability] samples; of a subset simulation: in a level")
-    asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"], help="instead of [variability] method")
+    asked.add_argument("--samples", type=int, metavar="N",
+                       help="instead of [variability] samples; of a subset simulation: in a level")
+    asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"],
+                       help="instead of [variability] method")
     asked.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
-    asked.add_argument("--failure", metavar="NAME", help="which failure subset and indices are about; left out: any, by margin over limit")
-    asked.add_argument("--indices", type=int, metavar="N", help="Sobol' indices of N rows, N (2 + number of uncertain parameters) samples")
+    asked.add_argument("--failure", metavar="NAME",
+                       help="which failure subset and indices are about; left out: any, by margin over limit")
+    asked.add_argument("--indices", type=int, metavar="N",
+                       help="Sobol' indices of N rows, N (2 + number of uncertain parameters) samples")
     asked.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
-    asked.add_argument("--salvage", action="store_true", help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
+    asked.add_argument("--salvage", action="store_true",
+                       help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
     asked.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
                        help="where samples are computed; the numbers are the same (default %(default)s)")
     asked.add_argument("--workers", type=int, metavar="N", help="left out: number of processors")
-    asked.add_argument("--address", metavar="HOST:PORT", help="of the scheduler of a Dask cluster; left out: one on this machine")
-    asked.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION", help="the function of a failure of the "
+    asked.add_argument("--address", metavar="HOST:PORT",
+                       help="of the scheduler of a Dask cluster; left out: one on this machine")
+    asked.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION",
+                       help="the function of a failure of the "
                        "kind own: function(look) -> margin; once for each")
 
 
@@ -298,7 +356,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
     options = asked.parse_args(words[:cut])
     if "" in (getattr(options, "output", None), getattr(options, "scene", None)):
-        return _fail(2, "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave --output out")
+        return _fail(2,
+                     "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave "
+                     "--output out")
     options.more = words[cut + 1:]  # options of the question that a sweep asks
     try:
         from ._progress import INTERRUPTS
@@ -314,7 +374,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def program() -> None:
     """The command as a program, which ends here with its exit status."""
     status = main()
-    # Python would end by the signal itself if Ctrl-C came within an exec, as of a dataclass, and HDF5 that could not write its file crashes at exit
+    # Python would end by the signal itself if Ctrl-C came within an exec, as of a dataclass, and HDF5 that could not
+    # write its file crashes at exit
     if status in (exit_status.STOPPED, exit_status.FILE):
         sys.stdout.flush()
         sys.stderr.flush()
@@ -339,7 +400,8 @@ def _fail(status: int, text: str) -> int:
 
 def _sweep(options: Any) -> int:
     if options.question == "probability":
-        raise Usage("sweep does not repeat probability, which has a map of its own with the same random numbers everywhere: "
+        raise Usage("sweep does not repeat probability, which has a map of its own with the same random numbers "
+                    "everywhere: "
                     f"drillmbd probability {options.scene} " + " ".join(f"--vary {text!r}" for text in options.vary))
     from . import scene
     from .sweep import MOST_CASES, keys_of, refuse_unnamed, sweep, varied
@@ -369,7 +431,8 @@ def _fmu(options: Any) -> int:
     if not options.quiet:
         for note in [*warnings_of(loaded), *notes]:
             print(f"note: {note}")
-        print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, {len(loaded.outputs)} outputs, "
+        print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, "
+              f"{len(loaded.outputs)} outputs, "
               f"{len(loaded.model.events())} events, {os.path.getsize(target) / 1e6:.1f} MB")
     return 0
 
@@ -383,8 +446,9 @@ def _live(options: Any) -> int:
         found, wanted, end = live.replay(loaded, options.replay)
         same = found == wanted
         if not options.quiet or not same:
-            print(f"{options.replay}: {end:g} s, hash {found}, " + ("as in the browser" if same else f"but {wanted} in the browser: another version of the library "
-                                                                   "or of the scene file"))
+            print(f"{options.replay}: {end:g} s, hash {found}, "
+                  + ("as in the browser" if same else f"but {wanted} in the browser: another version of the library "
+                     "or of the scene file"))
         return 0 if same else exit_status.FAILED
     target = options.output or os.path.splitext(options.scene)[0] + ".html"
     if os.path.isdir(target):
@@ -466,9 +530,12 @@ def _ask(options: Any) -> int:
     if needed and needed not in loaded.analyses:
         raise Usage(f"{options.scene} has no [{needed}], which {options.command} needs, for example:\n\n"
                     + least(needed, loaded))
-    if getattr(options, "probability", None) and options.output and os.path.realpath(options.probability) == os.path.realpath(options.output):
-        raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; give another --output")
-    out = CommandOutput(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded),
+    if getattr(options, "probability",
+               None) and options.output and os.path.realpath(options.probability) == os.path.realpath(options.output):
+        raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; "
+                    "give another --output")
+    out = CommandOutput(options.output, options.scene, loaded, options.command, options.quiet,
+                        units_of(options, loaded),
                     Language(getattr(options, "language", "en")))
     out.started = started
     return carry_out(loaded, out, options, QUESTIONS[options.command])

@@ -32,10 +32,12 @@ def check(scene: Scene, out: CommandOutput, options: Any) -> int:
         out.note(sim.status, "start")
         report, text = sim.check(), out.units.sentence(sim.check_text())
         understood = [out.units.sentence(one) for one in words.describe(scene, sim.momentum().mass)]
-    out.summary.update(model=record(scene.model.info()), check=record(report), understood=understood, left_out=words.trivial(scene))
+    out.summary.update(model=record(scene.model.info()), check=record(report), understood=understood,
+                       left_out=words.trivial(scene))
     notes = out.summary["warnings"]
     if notes:
-        text = text.replace("  warnings: none", f"  warnings of the model: none; notes on the scene: {len(notes)}, above")
+        text = text.replace("  warnings: none",
+                            f"  warnings of the model: none; notes on the scene: {len(notes)}, above")
     text = "\n".join(["the scene:", *(f"  {one}" for one in understood), text.rstrip("\n")])
     out.say(text)
     if out.folder is not None:
@@ -44,7 +46,8 @@ def check(scene: Scene, out: CommandOutput, options: Any) -> int:
 
 
 def to_rest(scene: Scene, sim: Sim, out: CommandOutput, linear: bool = False) -> None:
-    """The static state that [static] describes. Natural frequencies are those about an equilibrium without assumed slip."""
+    """The static state that [static] describes. Natural frequencies are those about an equilibrium without assumed
+    slip."""
     values = scene.fields_of("static")
     if linear and (values.pop("slip_axial", 0.0), values.pop("slip_rotation", 0.0)) != (0.0, 0.0):
         out.note_text("the static state is taken without the slip of [static]: friction that it assumes is gone when "
@@ -70,8 +73,10 @@ def profiles(scene: Scene, sim: Sim, out: CommandOutput, word: str) -> None:
     for name, pipes in scene.pipes.items():
         found = sim.profile(scene.names[name], pipes)
         per_contact = found.contact_force.sum()
-        out.say(f"{name}: axial force {units.number(found.axial_force.min(), 'N')} .. {units.text(found.axial_force.max(), 'N')}, torque up to "
-                   f"{units.text(abs(found.torque).max(), 'N m')}, bending up to {units.text(found.bending_moment.max(), 'N m')}, on the wall "
+        out.say(f"{name}: axial force {units.number(found.axial_force.min(), 'N')} .. "
+                f"{units.text(found.axial_force.max(), 'N')}, torque up to "
+                   f"{units.text(abs(found.torque).max(), 'N m')}, bending up to "
+                   f"{units.text(found.bending_moment.max(), 'N m')}, on the wall "
                    f"{units.text(per_contact, 'N')}")
         out.summary.setdefault("strings", {})[name] = {
             "axial_force_N": [float(found.axial_force.min()), float(found.axial_force.max())],
@@ -80,7 +85,8 @@ def profiles(scene: Scene, sim: Sim, out: CommandOutput, word: str) -> None:
         if out.folder is not None:
             heads = ["along [m]", "depth [m]", "x [m]", "y [m]", "z [m]", "axial force [N]", "torque [N m]",
                      "bending moment [N m]"]
-            rows = zip(found.along, found.depth, *found.position.T, found.axial_force, found.torque, found.bending_moment)
+            rows = zip(found.along, found.depth, *found.position.T, found.axial_force, found.torque,
+                       found.bending_moment)
             out.table(f"{word}_{file_name(name)}.csv", heads, ([float(one) for one in row] for row in rows))
             out.picture(f"{word}_{file_name(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}", units))
             out.picture(f"{word}_{file_name(name)}_shape.png", lambda plots: plots.string(found, None, name, units))
@@ -141,8 +147,10 @@ def run(scene: Scene, out: CommandOutput, options: Any) -> int:
         last = LastPart(scene, sim, end, step) if options.verify else None
         first = FirstTenth(sim, sim.time, end) if scene.sim.get("energy_ledger", 1) else None
         turning = TurnAStep(scene, sim, end, step) if step else None
-        quality = {name: one for name, one in (("last", last), ("first", first), ("turning", turning)) if one is not None}
-        parts: dict[str, Kept] = {**quality, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
+        quality = {name: one for name, one in (("last", last), ("first", first), ("turning", turning))
+                   if one is not None}
+        parts: dict[str, Kept] = {**quality, **{f"fatigue of {name}": KeptFatigue(one)
+                                                for name, one in counters.items()}}
         if recorder is not None:
             parts["recorder"] = KeptRecorder(recorder)
         course = Course(scene, sim, out, state, end, step)
@@ -166,7 +174,8 @@ def _rows(scene: Scene, end: float, step: float | None) -> tuple[int, float]:
     """Rows of the recorder, and the interval between them [s]."""
     interval = scene.results.get("interval", 0.0)
     if step and end / step > MOST_STEPS:
-        raise Usage(f"{end / step:.3g} steps of {step:g} s to {end:g} s are more than {MOST_STEPS:g}: give a longer step or an earlier end")
+        raise Usage(f"{end / step:.3g} steps of {step:g} s to {end:g} s are more than {MOST_STEPS:g}: give a longer "
+                    "step or an earlier end")
     rows = int(end / interval + 2) if interval else int(end / step + 3) if step else 1_000_000
     if rows * (1 + len(scene.outputs)) > MOST_ROWS:
         raise Usage(f"{float(rows):.4g} rows of {1 + len(scene.outputs)} numbers are more than {MOST_ROWS}: "
@@ -177,10 +186,12 @@ def _rows(scene: Scene, end: float, step: float | None) -> tuple[int, float]:
 class Course:
     """A run to its end in stretches from one file for ParaView to the next."""
 
-    def __init__(self, scene: Scene, sim: Sim, out: CommandOutput, state: RunState, end: float, step: float | None) -> None:
+    def __init__(self, scene: Scene, sim: Sim, out: CommandOutput, state: RunState, end: float,
+                 step: float | None) -> None:
         self.sim, self.out, self.state, self.end, self.step = sim, out, state, end, step
         every = scene.results.get("vtk_interval") if out.folder is not None else None
-        self.every = max(1, round(every / step)) * step if every and step else every  # whole steps: files change no step
+        # whole steps: files change no step
+        self.every = max(1, round(every / step)) * step if every and step else every
         self.begin, self.frame, self.elapsed = sim.time, 0, 0.0
         self.notes: dict[Status, str] = {}
 
@@ -244,13 +255,15 @@ class Course:
         if self.sim.time >= self.begin + self.frame * self.every - 1e-6 * (self.step or 0.0):
             self.sim.write_vtk(self.out.path(f"string_{self.frame:04d}.vtp"))
             self.frame += 1
-        at = self.sim.run_noting(min(self.end, self.begin + self.frame * self.every), self.step, recorder, shown, LOOK, counters,
+        at = self.sim.run_noting(min(self.end, self.begin + self.frame * self.every), self.step, recorder, shown, LOOK,
+                                 counters,
                                  self.begin + (self.frame - 1) * self.every)
         self.notes.update(at.notes)
 
     def _report(self, at: float, elapsed: float, stopped: bool) -> None:
         sim, factor = self.sim, (self.sim.time - self.begin) / self.elapsed if self.elapsed else None
-        self.out.summary["run"] = {"time_s": sim.time, "end_s": self.end, "steps": sim.statistics().steps, "elapsed_s": self.elapsed,
+        self.out.summary["run"] = {"time_s": sim.time, "end_s": self.end, "steps": sim.statistics().steps,
+                                   "elapsed_s": self.elapsed,
                                       "real_time_factor": factor}
         self.out.say(f"{'stopped at' if stopped else 'ran to'} {sim.time:g} s in {sim.statistics().steps} steps"
                         + (f", {(sim.time - at) / elapsed:.1f} times real time" if elapsed else ""))
@@ -267,7 +280,8 @@ def _run_answers(scene: Scene, sim: Sim, out: CommandOutput, recorder: Any) -> N
         for head, (low, high) in zip(heads[1:], ranges.values()):
             out.say(f"{units.head(head)}: {low * units.factor_of(head):.5g} .. {high * units.factor_of(head):.5g}")
         out.table("run.csv", heads, table.tolist())
-        out.picture("run.png", lambda plots: plots.history(table * [units.factor_of(head) for head in heads], [units.head(head) for head in heads],
+        out.picture("run.png", lambda plots: plots.history(table * [units.factor_of(head) for head in heads],
+                                                           [units.head(head) for head in heads],
                                                               scene.title))
     profiles(scene, sim, out, "end")
     holes(scene, sim, out)
@@ -331,10 +345,13 @@ def response(scene: Scene, out: CommandOutput, options: Any) -> int:
             at = int(size.argmax())
             if reasons[index] is not None:
                 peaks[name] = {"amplitude": None, "frequency_Hz": None}
-                out.say(f"{units.head(name)}: {'not assessed' if reasons[index] is NOTHING_EXCITES else 'no response'}, because {reasons[index]}")
+                out.say(f"{units.head(name)}: "
+                        f"{'not assessed' if reasons[index] is NOTHING_EXCITES else 'no response'}, because "
+                        f"{reasons[index]}")
                 continue
             peaks[name] = {"amplitude": float(size[at]), "frequency_Hz": float(found.frequencies[at])}
-            out.say(f"{units.head(name)}: largest {size[at] * units.factor_of(name):.4g} at {found.frequencies[at]:.4g} Hz")
+            out.say(f"{units.head(name)}: largest {size[at] * units.factor_of(name):.4g} at "
+                    f"{found.frequencies[at]:.4g} Hz")
         out.summary["response"] = peaks
         if out.folder is not None and units.name == "si":
             found.write_csv(out.path("response.csv"))
@@ -349,12 +366,14 @@ def _respond(sim: Sim, state: rotating.Linear) -> tuple[Any, list[Phrase | None]
     outputs = state.scene.response_outputs("response")
     found = sim.response(state.scene.excitations(), outputs, **state.options)
     sizes = [abs(found.transfer(output=index)) for index in range(len(outputs))]
-    return found, [of_response(sim, state.scene, state.scene.excitations(), one, state.options, float(found.frequencies[int(size.argmax())]))
+    return found, [of_response(sim, state.scene, state.scene.excitations(), one, state.options,
+                               float(found.frequencies[int(size.argmax())]))
                    for one, size in zip(outputs, sizes)]
 
 
 def _response_table(found: Any, names: list[str], out: CommandOutput) -> None:
-    """Amplitude and phase of each output for all inputs together; those for one input have units of the output over units of the input."""
+    """Amplitude and phase of each output for all inputs together; those for one input have units of the output over
+    units of the input."""
     numpy = need("numpy")
     heads, columns = ["frequency [Hz]"], [found.frequencies]
     for index, name in enumerate(names):
@@ -401,5 +420,6 @@ def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
 
 
 QUESTIONS: dict[str, Callable[[Scene, CommandOutput, Any], int]] = {
-    "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
+    "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response,
+    "speeds": speeds,
     "torque-drag": torque_drag, "buckle": buckle, "stuck": stuck, "rod-by-rod": rod_by_rod}

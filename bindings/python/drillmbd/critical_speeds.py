@@ -1,4 +1,5 @@
-"""Rotary speeds to avoid: bands of the linear analysis, over the range of diameters and friction of the scene, and speeds run in time."""
+"""Rotary speeds to avoid: bands of the linear analysis, over the range of diameters and friction of the scene, and
+speeds run in time."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -16,7 +17,8 @@ from .unit_systems import SI, Units
 
 #: Displacements across a string along x.
 LATERAL = (enums.OUTPUT_DISPLACEMENT_Y, enums.OUTPUT_DISPLACEMENT_Z,
-           *(base + component for base in (enums.OUTPUT_VIBRATION, enums.OUTPUT_VIBRATION_BODY) for component in (enums.Y, enums.Z)))
+           *(base + component for base in (enums.OUTPUT_VIBRATION, enums.OUTPUT_VIBRATION_BODY)
+             for component in (enums.Y, enums.Z)))
 LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
 
 
@@ -33,7 +35,8 @@ class Found:
 
     @property
     def whole(self) -> bool:
-        """True if all outputs and orders were assessed about the state of the scene: a speed that no band has is free of critical ones."""
+        """True if all outputs and orders were assessed about the state of the scene: a speed that no band has is free
+        of critical ones."""
         return self.silent is None and not self.partial and not self.state.refused
 
     @property
@@ -43,13 +46,15 @@ class Found:
 
 
 def analyse(scene: Scene, settle: Any, note: Any) -> Found:
-    """Bands about the sliding string. A scene without rotation: about the string that turns at the middle of the range."""
+    """Bands about the sliding string. A scene without rotation: about the string that turns at the middle of the
+    range."""
     settings, values = scene.analyses["speeds"], scene.fields_of("speeds")
     used: Any = _structs.SpeedsOptions(**values)
     limits = [one["limit"] for one in settings["output"]]
 
     def ask(sim: Sim, state: Linear) -> Any:
-        bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits, **state.options)
+        bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits,
+                                     **state.options)
         return bands, severity, no_response.of_speeds(sim, state.scene, state.options)
 
     state, (bands, severity, reasons) = rotating.linear(scene, "speeds", settle, ask, note)
@@ -66,27 +71,35 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
         raise Usage(f"--check {options.check} is outside 2 .. {speed_check.MOST_SPEEDS}")
     found = analyse(scene, lambda sim, state: settled(state.scene, sim, out, state.static), out.note_text)
     settings = scene.analyses["speeds"]
-    names, limits, places = scene.output_names("speeds"), [one["limit"] for one in settings["output"]], scene.response_outputs("speeds")
+    names, limits, places = (scene.output_names("speeds"), [one["limit"] for one in settings["output"]],
+                             scene.response_outputs("speeds"))
     out.say(found.state.words(out.units))
     for band in found.bands:
         out.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {out.units.head(names[band.output])}, "
-                   f"{band.severity:.3g} times its limit at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
+                   f"{band.severity:.3g} times its limit at {band.speed / RPM:.0f} rpm, order "
+                   f"{settings['order'][band.order]['order']:g}"
                    + touches(scene, places[band.output], band.severity * limits[band.output], out.units))
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     excited = found.silent is None
     if not excited:
         out.say(f"speeds: not assessed, because {found.silent}")
     elif found.state.refused:
-        out.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
-                   f"Of the string at rest the amplitudes are at most {max(found.severity):.3g} times their limits between {low:.0f} and {high:.0f} rpm")
+        out.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds "
+                "--check. "
+                   f"Of the string at rest the amplitudes are at most {max(found.severity):.3g} times their limits "
+                   f"between {low:.0f} and {high:.0f} rpm")
     elif not found.bands and found.bands.report.silent_orders:
-        out.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
-                   f"others have amplitudes of at most {max(found.severity):.3g} times their limits between {low:.0f} and {high:.0f} rpm")
+        out.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the "
+                f"{len(settings['order'])} orders move no output; the "
+                   f"others have amplitudes of at most {max(found.severity):.3g} times their limits between {low:.0f} "
+                   f"and {high:.0f} rpm")
     elif not found.bands and found.unmoved:
-        out.say(f"speeds: not assessed for all outputs; of the others the amplitudes are at most {max(found.severity):.3g} times their limits between "
+        out.say("speeds: not assessed for all outputs; of the others the amplitudes are at most "
+                f"{max(found.severity):.3g} times their limits between "
                    f"{low:.0f} and {high:.0f} rpm")
     elif not found.bands:
-        out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the amplitudes are at most {max(found.severity):.3g} times their limits")
+        out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the amplitudes are at most "
+                f"{max(found.severity):.3g} times their limits")
     for number in found.unmoved:
         out.say(f"{out.units.head(names[number])}: not assessed, because {no_response.NO_RESPONSE}")
     out.say(LINEAR)
@@ -98,7 +111,8 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]
     ranges = speed_range.bands_over_range(scene, out, found) if excited else []
     out.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(found.grid, found.severity)])
-    out.picture("speeds.png", lambda plots: plots.severity(found.grid, found.severity, found.bands, found.threshold, scene.title, ranges))
+    out.picture("speeds.png", lambda plots: plots.severity(found.grid, found.severity, found.bands, found.threshold,
+                                                           scene.title, ranges))
     if options.check:
         speed_check.check(scene, out, found, options.check)
     return out.finish()
@@ -108,7 +122,8 @@ def left_out(report: Any) -> list[str]:
     """Parts that the analysis leaves out, by its report."""
     remarks: list[str] = []
     if report.silent_orders:
-        remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
+        remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed",
+                              silent=int(report.silent_orders)))
     if report.undamped:
         remarks.append(phrase("Critical speeds: nothing damps the string, so amplitudes at resonances have no meaning"))
     if report.truncated:
@@ -123,7 +138,8 @@ def touches(scene: Scene, place: Output, amplitude: float, units: Units = SI) ->
     if clearance is None or amplitude <= clearance:
         return ""
     return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "
-            f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear analysis")
+            f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear "
+            "analysis")
 
 
 def clearance_at(scene: Scene, place: Place) -> float | None:

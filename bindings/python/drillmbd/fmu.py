@@ -71,7 +71,8 @@ def _options(name: str, options: Any) -> bytes:
     for field, kind in type(options)._fields_:
         if _is_pointer(kind):
             if getattr(options, field):
-                raise CannotExport(f"unit refused: {name}, {field} points to data that a unit cannot contain; leave it out")
+                raise CannotExport(f"unit refused: {name}, {field} points to data that a unit cannot contain; leave it "
+                                   "out")
         elif field not in ("struct_size", "reserved"):
             numbers.append(float(getattr(options, field)))
     return struct.pack(f"<I{len(numbers)}d", len(numbers), *numbers)
@@ -81,7 +82,8 @@ def _settings(scene: Scene) -> bytes:
     """Options of compile, sim and static state, the length of steps, and the outputs."""
     compiled: dict[str, Any] = next((arguments[0] for name, arguments in scene.model.calls if name == "compile"), {})
     found = [_options("compile", CompileOptions(**compiled)), _options("sim", SimOptions(**scene.sim)),
-             _options("static", StaticOptions(**scene.fields_of("static"))), struct.pack("<dI", _step(scene), len(scene.outputs))]
+             _options("static", StaticOptions(**scene.fields_of("static"))),
+             struct.pack("<dI", _step(scene), len(scene.outputs))]
     for _, place, quantity in scene.outputs:
         at = Place() if place is None else place
         found.append(struct.pack("<IIdi", at.part.index, at.pipe, at.fraction, quantity))
@@ -137,19 +139,24 @@ def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
 
 
 def _refuse_changing(scene: Scene) -> None:
-    """Refuses an input that replaces a time function that changes. In a unit, an input that the importer does not set keeps its start
-    value (FMI 3.0, 2.4.7); the unit would follow the time function instead, and the two importers' results would differ silently."""
+    """Refuses an input that replaces a time function that changes. In a unit, an input that the importer does not set
+    keeps its start value (FMI 3.0, 2.4.7); the unit would follow the time function instead, and the two importers'
+    results would differ silently."""
     parts = _described(scene)
     for name, arguments in parts.values():
         given = arguments[0] if name == "add_input" else {}
-        if name != "add_input" or given.get("target", enums.TARGET_SET_POINT) not in CONTROLLED or not math.isnan(given.get("initial", math.nan)):
+        target = given.get("target", enums.TARGET_SET_POINT)
+        if name != "add_input" or target not in CONTROLLED or not math.isnan(given.get("initial", math.nan)):
             continue
         part = parts[given["part"].index]
         function = part[1][0].get("load" if part[0] == "add_bit" else "time_function")
         segments = parts[function.index][1] if function else ()
-        if any(one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT or one.get("table") or one.get("function") for one in segments):
-            raise CannotExport(f"unit refused: input {given['name']} replaces a time function that changes, but an input of a unit has its start "
-                               "value until it is set; give the [[input]] an initial value, or its part a constant time function")
+        if any(one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT or one.get("table")
+               or one.get("function") for one in segments):
+            raise CannotExport(f"unit refused: input {given['name']} replaces a time function that changes, but an "
+                               "input of a unit has its start "
+                               "value until it is set; give the [[input]] an initial value, or its part a constant "
+                               "time function")
 
 
 def _output_unit(quantity: int, place: Place | None, drives: dict[int, dict[str, Any]]) -> str:
@@ -280,8 +287,8 @@ def _variables2(parent: Any, found: list[Variable]) -> None:
 
 
 def _known(one: Variable, at_start: bool) -> Attributes:
-    """Dependencies of an output: without the attribute it depends on all known variables. At the start all goes into the state,
-    but counts of events are 0."""
+    """Dependencies of an output: without the attribute it depends on all known variables. At the start all goes into
+    the state, but counts of events are 0."""
     return {"dependencies": ""} if (one.integer if at_start else one.of_state) else {}
 
 
@@ -311,7 +318,8 @@ def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
                 "canNotUseMemoryManagementFunctions": "true"}
     has_events = "true" if scene.model.events() else "false"
     return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true",
-            "providesDirectionalDerivatives": "true", "hasEventMode": has_events, "mightReturnEarlyFromDoStep": has_events}
+            "providesDirectionalDerivatives": "true", "hasEventMode": has_events,
+            "mightReturnEarlyFromDoStep": has_events}
 
 
 def description(scene: Scene, version: int, identifier: str, token: str, found: list[Variable],
@@ -393,13 +401,14 @@ def platform_folder(version: int) -> str:
 
 
 def find_binary() -> pathlib.Path:
-    """The file that becomes the unit's binary: the one named by the environment variable DRILLMBD_FMU, or drillmbd_fmu.so
-    beside the library or this package, or in the folder drillmbd beside the library."""
+    """The file that becomes the unit's binary: the one named by the environment variable DRILLMBD_FMU, or
+    drillmbd_fmu.so beside the library or this package, or in the folder drillmbd beside the library."""
     own = os.environ.get("DRILLMBD_FMU")
     folders = [pathlib.Path(_library.find()).parent, _library.HERE,
                *map(pathlib.Path, (sys.prefix + "/lib", "/usr/local/lib"))]
     folders += [one / f"{platform.machine()}-linux-gnu" for one in folders[2:]]
-    tried = [one / f"{BINARY}{end}" for folder in folders for one in (folder, folder / "drillmbd") for end in (".so", ".dylib", ".dll")]
+    tried = [one / f"{BINARY}{end}" for folder in folders for one in (folder, folder / "drillmbd")
+             for end in (".so", ".dylib", ".dll")]
     if own:
         tried = [pathlib.Path(own)]
     for path in tried:

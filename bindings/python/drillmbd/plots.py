@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)))
 _STYLE = {"axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.spines.top": False,
-          "axes.spines.right": False, "axes.axisbelow": True, "legend.frameon": False, "axes.formatter.useoffset": False}
+          "axes.spines.right": False, "axes.axisbelow": True, "legend.frameon": False,
+          "axes.formatter.useoffset": False}
 
 
 def _axes(rows: int, columns: int, size: tuple[float, float], **more: Any) -> tuple[Any, Any]:
@@ -42,11 +43,11 @@ def _legend(axes: Any) -> None:
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
-#: A profile shows at least this share of the largest force, and of its moment by a lever of the order of a pipe's radius: below it,
-#: rounding and residuals would fill the axis.
+#: A profile shows at least this share of the largest force, and of its moment by a lever of the order of a pipe's
+#: radius: below it, rounding and residuals would fill the axis.
 LEAST_SHARE, LEVER = 0.01, 0.05
-#: Turning points of a curve above which a band of its least and largest values is drawn in its place; turning points in an interval of
-#: the band, and the least and largest number of intervals.
+#: Turning points of a curve above which a band of its least and largest values is drawn in its place; turning points in
+#: an interval of the band, and the least and largest number of intervals.
 MOST_TURNS, TURNS, BANDS = 250, 4, (100, 500)
 
 
@@ -58,7 +59,8 @@ def _at_least(axes: Any, half: float) -> None:
 
 
 def _log(axes: Any, which: str = "y") -> None:
-    """A logarithmic axis of a decade at least, with labels between the powers of ten where few of these are in sight."""
+    """A logarithmic axis of a decade at least, with labels between the powers of ten where few of these are in
+    sight."""
     getattr(axes, f"set_{which}scale")("log")
     axis = getattr(axes, f"{which}axis")
     low, high = getattr(axes, f"get_{which}lim")()
@@ -69,7 +71,8 @@ def _log(axes: Any, which: str = "y") -> None:
 
 
 def _curve(axes: Any, time: Any, values: Any, name: str, number: int) -> None:
-    """A curve over time; one that oscillates too often for a line is drawn as its mean in a band of its least and largest values."""
+    """A curve over time; one that oscillates too often for a line is drawn as its mean in a band of its least and
+    largest values."""
     numpy = need("numpy")
     steps = numpy.sign(numpy.diff(values))
     turns = int((steps[1:] * steps[:-1] < 0.0).sum())
@@ -80,9 +83,11 @@ def _curve(axes: Any, time: Any, values: Any, name: str, number: int) -> None:
     edges = numpy.linspace(0, len(values), bands + 1).astype(int)
     count = numpy.diff(edges)
     middle = numpy.add.reduceat(time, edges[:-1]) / count
-    axes.fill_between(middle, numpy.minimum.reduceat(values, edges[:-1]), numpy.maximum.reduceat(values, edges[:-1]), alpha=0.3, linewidth=0.0,
+    axes.fill_between(middle, numpy.minimum.reduceat(values, edges[:-1]), numpy.maximum.reduceat(values, edges[:-1]),
+                      alpha=0.3, linewidth=0.0,
                       color=COLOURS[number % len(COLOURS)], label=f"{name}: least to largest")
-    axes.plot(middle, numpy.add.reduceat(values, edges[:-1]) / count, label=f"{name}: mean", linewidth=1.0, **_style(number))
+    axes.plot(middle, numpy.add.reduceat(values, edges[:-1]) / count, label=f"{name}: mean", linewidth=1.0,
+              **_style(number))
 
 
 def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
@@ -114,7 +119,8 @@ def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
 
 
 def string(found: Profile, hole_diameter: float | None = None, title: str = "", units: Units = SI) -> Any:
-    """The string in its hole: seen from the side and from above to one scale, and how far it lies off its described axis."""
+    """The string in its hole: seen from the side and from above to one scale, and how far it lies off its described
+    axis."""
     figure, ((side,), (above,), (off,)) = _axes(3, 1, (11, 9))
     x, y, z = units.factor("m") * found.position.T
     side.plot(x, z, **SINGLE)
@@ -124,10 +130,12 @@ def string(found: Profile, hole_diameter: float | None = None, title: str = "", 
     for axes in (side, above):
         axes.set_aspect("equal", adjustable="datalim")
     for i, axis in enumerate("yz"):
-        off.plot(units.factor("m") * found.along, 1e3 * units.factor("mm") * found.displacement[:, 1 + i], label=f"along {axis}", **_style(i))
+        off.plot(units.factor("m") * found.along, 1e3 * units.factor("mm") * found.displacement[:, 1 + i],
+                 label=f"along {axis}", **_style(i))
     if hole_diameter is not None:
         off.plot([], [], " ", label=f"hole {units.text(1e3 * hole_diameter, 'mm', 'g')}")
-    off.set(xlabel=units.head("along the string [m]"), ylabel=units.head("displacement [mm]"), title="sideways, exaggerated")
+    off.set(xlabel=units.head("along the string [m]"), ylabel=units.head("displacement [mm]"),
+            title="sideways, exaggerated")
     _legend(off)
     figure.suptitle(title)
     return figure
@@ -172,7 +180,8 @@ def response(found: Response, names: Sequence[str] | None = None, title: str = "
         name, factor = (units.head(names[i]), units.factor_of(names[i])) if names else (f"output {i}", 1.0)
         size.plot(found.frequencies, factor * numpy.abs(values), label=name, **_style(i))
         angle = numpy.angle(values, deg=True)
-        phase.plot(found.frequencies, numpy.where(numpy.abs(numpy.diff(angle, append=angle[-1:])) > 180.0, numpy.nan, angle),
+        phase.plot(found.frequencies, numpy.where(numpy.abs(numpy.diff(angle, append=angle[-1:])) > 180.0, numpy.nan,
+                                                  angle),
                    **_style(i))  # a phase that comes back at the other side draws no line across
     _log(size)
     size.set(ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else units.head(names[0]))
@@ -203,7 +212,8 @@ def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, titl
     return figure
 
 
-def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_weight: float = 0.0, units: Units = SI) -> Any:
+def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_weight: float = 0.0,
+                units: Units = SI) -> Any:
     """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation.
     block_weight [N]: added to the hook loads."""
     figure, ((load, torque),) = _axes(1, 2, (11, 6), sharey=True)
@@ -214,7 +224,8 @@ def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_
         columns = [[value + more for value in found.column(field, number)] for number in range(len(names))]
         factor, unit = units.axis(si, *columns)
         for number, (name, column) in enumerate(zip(names, columns)):
-            axes.plot([factor * value for value in column], [length * depth for depth in found.column("depth", number)], label=name, **_style(number))
+            axes.plot([factor * value for value in column], [length * depth for depth in found.column("depth", number)],
+                      label=name, **_style(number))
         axes.set_xlabel(label.format(unit))
     load.axvline(0.0, color="#999999", linewidth=0.8)
     load.set_ylabel(units.head("measured depth of the bit [m]"))
@@ -224,30 +235,38 @@ def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_
     return figure
 
 
-def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[float]], torques: dict[str, Sequence[float]],
+def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[float]],
+               torques: dict[str, Sequence[float]],
                title: str = "", measured: dict[str, Any] | None = None, units: Units = SI) -> Any:
-    """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction (kind of line; "friction
-    0.3"); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as points."""
+    """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction
+    (kind of line; "friction
+    0.3"); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as
+    points."""
     figure, ((load, torque),) = _axes(1, 2, (13, 7), sharey=True)
     depths = [units.factor("m") * depth for depth in depths]
-    measured = {word: ([units.factor("m") * depth for depth in places], values) for word, (places, values) in (measured or {}).items()}
+    measured = {word: ([units.factor("m") * depth for depth in places], values)
+                for word, (places, values) in (measured or {}).items()}
     words, frictions = list(dict.fromkeys(word for word, _ in loads)), list(torques)
-    factor, unit = units.axis("N", *loads.values(), *(values for word, (_, values) in measured.items() if word != "torque"))
+    factor, unit = units.axis("N", *loads.values(),
+                              *(values for word, (_, values) in measured.items() if word != "torque"))
     for (word, friction), column in loads.items():
         load.plot([factor * value for value in column], depths, label=f"{word}, {friction}", linewidth=1.2,
                   color=COLOURS[words.index(word)], linestyle=LINES[frictions.index(friction) % len(LINES)])
     for number, word in enumerate(words):
         if word in measured:
-            load.plot([factor * value for value in measured[word][1]], measured[word][0], "osD"[number], markersize=4, fillstyle="none",
+            load.plot([factor * value for value in measured[word][1]], measured[word][0], "osD"[number], markersize=4,
+                      fillstyle="none",
                       color=COLOURS[number], label=f"{word}, measured")
     load.axvline(0.0, color="#999999", linewidth=0.8)
     load.set(xlabel=f"hook load [{unit}]\n(< 0: the rig thrusts)", ylabel=units.head("measured depth of the bit [m]"))
-    factor, unit = units.axis("N m", *torques.values(), *(values for word, (_, values) in measured.items() if word == "torque"))
+    factor, unit = units.axis("N m", *torques.values(),
+                              *(values for word, (_, values) in measured.items() if word == "torque"))
     for number, (friction, column) in enumerate(torques.items()):
         torque.plot([factor * value for value in column], depths, label=f"rotate, {friction}", linewidth=1.2,
                     color=COLOURS[2], linestyle=LINES[number % len(LINES)])
     if "torque" in measured:
-        torque.plot([factor * value for value in measured["torque"][1]], measured["torque"][0], "D", markersize=4, fillstyle="none",
+        torque.plot([factor * value for value in measured["torque"][1]], measured["torque"][0], "D", markersize=4,
+                    fillstyle="none",
                     color=COLOURS[2], label="rotate, measured")
     torque.set_xlabel(f"torque at the rig [{unit}]")
     load.invert_yaxis()
@@ -259,7 +278,8 @@ def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[fl
 
 def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[Any], threshold: float = 1.0,
              title: str = "", ranges: Sequence[tuple[float, float]] = ()) -> Any:
-    """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm; ranges [rad/s]: bands over a range of the scene, lightly."""
+    """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm; ranges [rad/s]: bands over a
+    range of the scene, lightly."""
     figure, ((axes,),) = _axes(1, 1, (11, 4.5))
     rpm = [30.0 * speed / math.pi for speed in speeds]
     axes.plot(rpm, values, label="amplitude over limit", **SINGLE)
@@ -280,26 +300,31 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
     return figure
 
 
-def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[float, float], title: str = "", units: Units = SI) -> Any:
-    """Torque with its range, its relative oscillation and the lateral acceleration by rotary speed [rpm]. rows: speed, linear verdict, verdict in time,
-    torque [N m], oscillation [-], acceleration [m/s2]; bands of the linear analysis are shaded, limits are of oscillation and acceleration."""
+def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[float, float], title: str = "",
+                   units: Units = SI) -> Any:
+    """Torque with its range, its relative oscillation and the lateral acceleration by rotary speed [rpm]. rows: speed,
+    linear verdict, verdict in time, torque [N m], oscillation [-], acceleration [m/s2]; bands of the linear analysis
+    are shaded, limits are of oscillation and acceleration."""
     figure, ((torque,), (oscillation,), (lateral,)) = _axes(3, 1, (11, 8), sharex=True)
     known = [row for row in rows if row[3] == row[3]]
     rpm = [row[0] for row in known]
     factor, unit = units.axis("N m", [row[3] for row in known])
-    torque.errorbar(rpm, [factor * row[3] for row in known], [factor * abs(row[3]) * row[4] for row in known], fmt="o", capsize=4,
+    torque.errorbar(rpm, [factor * row[3] for row in known], [factor * abs(row[3]) * row[4] for row in known], fmt="o",
+                    capsize=4,
                     color=COLOURS[1], markersize=4)
     torque.set_ylabel(f"torque at the rig [{unit}],\nmean and range")
     acceleration = units.factor("m/s2")
     for axes, values, limit, label in ((oscillation, [row[4] for row in known], limits[0], "torque oscillation [-]"), (
-            lateral, [acceleration * row[5] for row in known], acceleration * limits[1], units.head("lateral acceleration [m/s2]"))):
+            lateral, [acceleration * row[5] for row in known], acceleration * limits[1],
+            units.head("lateral acceleration [m/s2]"))):
         axes.plot(rpm, values, marker="o", markersize=4, label="in time", **SINGLE)
         axes.axhline(limit, **_style(2), linewidth=1.0, label="limit")
         axes.set(ylabel=label, yscale="log" if values and min(values) > 0.0 else "linear")
         _legend(axes)
     for axes in (torque, oscillation, lateral):
         for number, band in enumerate(bands):
-            axes.axvspan(30.0 * band.low / math.pi, 30.0 * band.high / math.pi, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00",
+            axes.axvspan(30.0 * band.low / math.pi, 30.0 * band.high / math.pi, facecolor="#E69F00", alpha=0.35,
+                         hatch="//", edgecolor="#D55E00",
                          linewidth=0.0, label="avoid, linear" if number == 0 and axes is oscillation else None)
     _legend(oscillation)
     lateral.set_xlabel("rotary speed [rpm]")
@@ -308,14 +333,19 @@ def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[floa
 
 
 def rods(rows: Sequence[Any], limits: dict[str, float], title: str = "", units: Units = SI) -> Any:
-    """Thrust, pull and torque by the number of rods in the hole, with the limits of the rig and of the joints. rows: of drillmbd.rod_by_rod."""
+    """Thrust, pull and torque by the number of rods in the hole, with the limits of the rig and of the joints. rows: of
+    drillmbd.rod_by_rod."""
     figure, grid = _axes(3, 1, (11, 8), sharex=True)
     numbers = [row.rods for row in rows]
-    for (axes,), (key, word, unit) in zip(grid, (("push", "thrust", "N"), ("pull", "pull", "N"), ("torque", "torque", "N m"))):
+    for (axes,), (key, word, unit) in zip(grid, (("push", "thrust", "N"), ("pull", "pull", "N"),
+                                                 ("torque", "torque", "N m"))):
         values = [row.loads[key].value for row in rows]
-        lines = {name: limits[one] for one, name in ((key, "limit of the rig"), *((("make_up", "make-up torque"),) if key == "torque" else ())) if one in limits}
+        lines = {name: limits[one] for one, name in ((key, "limit of the rig"),
+                                                     *((("make_up", "make-up torque"),) if key == "torque" else ()))
+                 if one in limits}
         factor, head = units.axis(unit, values, lines.values())
-        axes.plot(numbers, [factor * one if math.isfinite(one) else math.nan for one in values], marker=".", label=word, **SINGLE)
+        axes.plot(numbers, [factor * one if math.isfinite(one) else math.nan for one in values], marker=".", label=word,
+                  **SINGLE)
         for number, (name, limit) in enumerate(lines.items()):
             axes.axhline(factor * limit, **_style(2 + number), linewidth=1.0, label=name)
         locked = [number for number, one in zip(numbers, values) if math.isinf(one)]
@@ -333,7 +363,8 @@ def buckling(shape: Any, along: Any, factor: float, title: str = "", units: Unit
     figure, ((axes,),) = _axes(1, 1, (11, 4))
     for number, name in enumerate("xyz"):
         axes.plot(along, units.factor("m") * shape[:, number], label=name, **_style(number))
-    axes.set(xlabel="along the string [m]", ylabel="shape [m], largest 1" if units.name == "si" else units.head("shape [m]"),
+    axes.set(xlabel="along the string [m]", ylabel="shape [m], largest 1" if units.name == "si"
+             else units.head("shape [m]"),
              title=f"critical factor {factor:.4g}")
     _legend(axes)
     figure.suptitle(title)
@@ -358,8 +389,8 @@ def fatigue(found: StringFatigue, title: str = "", units: Units = SI) -> Any:
 
 
 def causes(found: Response, names: Sequence[str], output: int = 0, label: str = "amplitude", title: str = "") -> Any:
-    """The causes that excite one output: its amplitude over frequency by each input with the input's own amplitude, and by all
-    together. names: of the inputs; label: of the output, with its unit."""
+    """The causes that excite one output: its amplitude over frequency by each input with the input's own amplitude, and
+    by all together. names: of the inputs; label: of the output, with its unit."""
     numpy = need("numpy")
     figure, ((axes,),) = _axes(1, 1, (11, 6))
     together = numpy.abs(found.transfer(output=output))
@@ -377,11 +408,13 @@ def causes(found: Response, names: Sequence[str], output: int = 0, label: str = 
 def frequencies(found: Modes, title: str = "") -> Any:
     """All natural frequencies by their number, axial, torsional and lateral ones apart by the largest motion."""
     figure, ((axes,),) = _axes(1, 1, (9, 5))
-    elastic = [(number, mode.frequency, max(range(3), key=list(mode.share).__getitem__)) for number, mode in enumerate(found)
+    elastic = [(number, mode.frequency, max(range(3), key=list(mode.share).__getitem__))
+               for number, mode in enumerate(found)
                if not mode.rigid]
     for kind, name in enumerate(("along", "around", "across")):
         shown = [(number, frequency) for number, frequency, most in elastic if most == kind]
-        axes.plot([one for one, _ in shown], [one for _, one in shown], "os^"[kind], color=COLOURS[1 + kind], markersize=4,
+        axes.plot([one for one, _ in shown], [one for _, one in shown], "os^"[kind], color=COLOURS[1 + kind],
+                  markersize=4,
                   label=name)
     axes.set(xlabel="mode [-]", ylabel="natural frequency [Hz]")
     if elastic:
@@ -426,18 +459,23 @@ def demands(found: Sequence[Any]) -> Any:
     return figure
 
 
-def probability_map(vary: Sequence[tuple[str, Sequence[Any]]], cells: Sequence[tuple[float, float, float] | None], name: str) -> Any:
-    """Failure probability over one or two parameters: in each cell the probability and its interval in percent; empty where there is none."""
+def probability_map(vary: Sequence[tuple[str, Sequence[Any]]], cells: Sequence[tuple[float, float, float] | None],
+                    name: str) -> Any:
+    """Failure probability over one or two parameters: in each cell the probability and its interval in percent; empty
+    where there is none."""
     numpy = need("numpy")
     rows, columns = (vary[0], vary[1]) if len(vary) == 2 else (("", [""]), vary[0])
     figure, all_axes = _axes(1, 1, (2.5 + 1.4 * len(columns[1]), 1.8 + 0.9 * len(rows[1])))
     axes = all_axes[0, 0]
     values = numpy.array([math.nan if one is None else one[0] for one in cells]).reshape(len(rows[1]), len(columns[1]))
-    image = axes.imshow(100.0 * values, cmap="cividis", vmin=0.0, vmax=max(1.0, 100.0 * float(numpy.nanmax(values, initial=0.0))), aspect="auto")
+    image = axes.imshow(100.0 * values, cmap="cividis", vmin=0.0,
+                        vmax=max(1.0, 100.0 * float(numpy.nanmax(values, initial=0.0))), aspect="auto")
     for i, one in enumerate(cells):
         if one is not None:
-            axes.text(i % len(columns[1]), i // len(columns[1]), f"{100 * one[0]:.3g} %\n{100 * one[1]:.2g} .. {100 * one[2]:.2g} %", ha="center",
-                      va="center", bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5}, fontsize=8)
+            axes.text(i % len(columns[1]), i // len(columns[1]),
+                      f"{100 * one[0]:.3g} %\n{100 * one[1]:.2g} .. {100 * one[2]:.2g} %", ha="center",
+                      va="center", bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5},
+                      fontsize=8)
     axes.grid(False)
     axes.set_xticks(range(len(columns[1])), [str(one) for one in columns[1]])
     axes.set_yticks(range(len(rows[1])), [str(one) for one in rows[1]])
@@ -471,15 +509,16 @@ def spectrum(table: Any, columns: Sequence[str], title: str = "") -> Any:
 
 
 def orbit(y: Any, z: Any, clearance: float | None = None, title: str = "") -> Any:
-    """The orbit of a point of the string across the hole, seen along it: displacements y, z [m], shape (n), and the circle
-    that `clearance` [m] leaves, half the difference of the diameters of hole and pipe."""
+    """The orbit of a point of the string across the hole, seen along it: displacements y, z [m], shape (n), and the
+    circle that `clearance` [m] leaves, half the difference of the diameters of hole and pipe."""
     numpy = need("numpy")
     figure, ((axes,),) = _axes(1, 1, (6.5, 6))
     axes.plot(1e3 * numpy.asarray(y), 1e3 * numpy.asarray(z), linewidth=0.9, label="way", **SINGLE)
     axes.plot(1e3 * float(y[-1]), 1e3 * float(z[-1]), "o", color=COLOURS[2], label="end")
     if clearance is not None:
         angle = numpy.linspace(0.0, 2.0 * math.pi, 181)
-        axes.plot(1e3 * clearance * numpy.cos(angle), 1e3 * clearance * numpy.sin(angle), color="#999999", linewidth=1.0,
+        axes.plot(1e3 * clearance * numpy.cos(angle), 1e3 * clearance * numpy.sin(angle), color="#999999",
+                  linewidth=1.0,
                   label=f"free way {1e3 * clearance:.3g} mm")
     axes.set(xlabel="y [mm]", ylabel="z, up [mm]")
     axes.set_aspect("equal", adjustable="datalim")
@@ -489,7 +528,8 @@ def orbit(y: Any, z: Any, clearance: float | None = None, title: str = "") -> An
 
 
 def over_time(recorder: ProfileRecorder, quantity: int = 0, title: str = "") -> Any:
-    """One quantity of a ProfileRecorder along the string over time, as a map; quantity: its number among the recorder's."""
+    """One quantity of a ProfileRecorder along the string over time, as a map; quantity: its number among the
+    recorder's."""
     values = recorder.values[:, :, quantity]
     figure, ((axes,),) = _axes(1, 1, (11, 5))
     picture = axes.pcolormesh(recorder.time, recorder.along, values.T, cmap="cividis", shading="nearest")

@@ -1,5 +1,5 @@
-"""The report: every analysis of a scene, the largest demand of each kind against its limit, and figures. Made into a page by
-report_page."""
+"""The report: every analysis of a scene, the largest demand of each kind against its limit, and figures. Made into a
+page by report_page."""
 from __future__ import annotations
 
 import datetime
@@ -36,7 +36,8 @@ from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK,
 
 FRAMES, POINTS, DEPTHS = 60, 300, 40
 #: Operations in the order of OPERATIONS, with the names of the library.
-OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phrase("drill"), phrase("slide"), phrase("back-ream"))
+OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phrase("drill"), phrase("slide"),
+                   phrase("back-ream"))
 
 
 class Study:
@@ -49,7 +50,8 @@ class Study:
         self.plan: Operating = operating(scene)
         self.operations: dict[str, Profile] = {}
         self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units) for key, title, unit in (
-            ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"), ("torque", phrase("Torque at the rig"), "N m"),
+            ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"),
+            ("torque", phrase("Torque at the rig"), "N m"),
             ("yield_stress", phrase("Von Mises stress"), "Pa"))}
         self.soft: list[str] = []                    # analyses that have the torque of the bit
         self.tiles: list[Tile] = []
@@ -64,7 +66,8 @@ class Study:
         self.live = ""                               # packed page that runs the scene
         self.headline: str = headline(self.string, self.plan, self.units)
         self.understood: list[str] = []
-        self.made: str = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
+        self.made: str = phrase("Made on {date} by drillmbd {version} from {file}",
+                                date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
                            file=out.summary["scene"])
 
     def ask(self) -> None:
@@ -90,15 +93,17 @@ class Study:
         self.out.summary["verdicts"] = [vars(tile) for tile in self.tiles]
 
     def _bit_torque(self) -> None:
-        """Stiff string and run lack a torque of the bit that is estimated. The von Mises stress is a norm of the stresses, so that theirs and
-        that of the torque, sqrt(3) T r/J in the weakest pipe, bound the stress of both together."""
+        """Stiff string and run lack a torque of the bit that is estimated. The von Mises stress is a norm of the
+        stresses, so that theirs and that of the torque, sqrt(3) T r/J in the weakest pipe, bound the stress of both
+        together."""
         if not self.plan.estimated:
             return
         more = math.sqrt(3.0) * self.plan.torque_on_bit / min(polar_moduli(self.scene), default=math.inf)
         demand = self.demands["yield_stress"]
         stress = shown(more, "Pa", self.units)
         demand.found = [(value, source) if source in self.soft else
-                        (value + more, phrase("{source}, and {stress} by the estimated torque of the bit", source=source, stress=stress))
+                        (value + more, phrase("{source}, and {stress} by the estimated torque of the bit",
+                                              source=source, stress=stress))
                         for value, source in demand.found]
 
     def _other_strings(self) -> None:
@@ -106,25 +111,30 @@ class Study:
         others = joined(", ", [name for name in self.scene.pipes if name != self.string])
         if others:
             for demand in self.demands.values():
-                demand.failed.append(phrase("other strings ({strings}), which the analyses of one string leave out", strings=others))
+                demand.failed.append(phrase("other strings ({strings}), which the analyses of one string leave out",
+                                            strings=others))
             for tile in self.tiles:
                 if tile.verdict == OK:
-                    tile.verdict, tile.text = NOT_ASSESSED, phrase("of string {string} only; {text}", string=self.string, text=tile.text)
+                    tile.verdict, tile.text = (NOT_ASSESSED, phrase("of string {string} only; {text}",
+                                                                    string=self.string, text=tile.text))
 
     def _missing_loads(self) -> None:
         """Loads of drilling that no analysis has: without them no verdict on thrust, torque and stress is OK."""
         ran, cuts = "end" in self.scene.run, has_rock_law(self.scene)
         if cuts and not ran:
             for key in ("push", "torque", "yield_stress"):
-                self.demands[key].failed.append(phrase("the load and torque of the bit, which the rock law gives in a run only"))
+                self.demands[key].failed.append(phrase("the load and torque of the bit, which the rock law gives in a "
+                                                       "run only"))
         elif not self.plan.weight_on_bit and not cuts:
             for key in ("push", "torque", "yield_stress"):
                 self.demands[key].failed.append(phrase("the load on the bit, which the scene does not give"))
         elif not self.plan.estimated and not cuts:
             for key in ("torque", "yield_stress"):
-                self.demands[key].failed.append(phrase("the torque of the bit, which is not estimated without its diameter"))
+                self.demands[key].failed.append(phrase("the torque of the bit, which is not estimated without its "
+                                                       "diameter"))
         elif not ran and not math.isfinite(self._yield_strength()):
-            self.demands["yield_stress"].failed.append(phrase("the load on the bit, because the scene has no [run] end"))
+            self.demands["yield_stress"].failed.append(phrase("the load on the bit, because the scene has no [run] "
+                                                              "end"))
 
     def _attempt(self, what: Phrase, demands: tuple[str, ...], analysis: Callable[[], None]) -> None:
         try:
@@ -154,7 +164,8 @@ class Study:
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01
         rotation = self.plan.rotation or 10.0
-        for name, key, slip in ((phrase("pushed in"), "push", {"slip_axial": speed}), (phrase("pulled out"), "pull", {"slip_axial": -speed}),
+        for name, key, slip in ((phrase("pushed in"), "push", {"slip_axial": speed}),
+                                (phrase("pulled out"), "pull", {"slip_axial": -speed}),
                                 (phrase("rotated"), "torque", {"slip_rotation": rotation})):
             self._attempt(phrase("stiff string, {operation}", operation=name), (key, "yield_stress"),
                           lambda name=name, key=key, slip=slip: self._operation(name, key, slip))  # type: ignore[misc]
@@ -163,10 +174,12 @@ class Study:
                                              for name, found in self.operations.items()}
         if not self.operations:
             return
-        self.figures.append((phrase("Axial force by operation"), phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
-                             "time 0 s. Tension is positive."), self._along("axial_force", "push")))
-        self.figures.append((phrase("Torque by operation"), phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
-                             "time 0 s."), self._along("torque", "torque")))
+        self.figures.append((phrase("Axial force by operation"),
+                             phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
+                                    "time 0 s. Tension is positive."), self._along("axial_force", "push")))
+        self.figures.append((phrase("Torque by operation"),
+                             phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
+                                    "time 0 s."), self._along("torque", "torque")))
 
     def _operation(self, name: Phrase, key: str, slip: dict[str, float]) -> None:
         scene, _ = balanced(self.scene, {**self.scene.fields_of("static"), **slip})
@@ -194,17 +207,25 @@ class Study:
         self._soft_demands(found.rows[-1])
         self._confinement(found.rows[-1])
         for title, field, factor, label, limits in (
-                (phrase("Hook load by depth of the bit"), "hook_load", _force(units), phrase("hook load [{unit}], < 0: the rig thrusts", unit=units.unit("kN")),
+                (phrase("Hook load by depth of the bit"), "hook_load", _force(units),
+                 phrase("hook load [{unit}], < 0: the rig thrusts", unit=units.unit("kN")),
                  ("pull", "push")),
-                (phrase("Torque by depth of the bit"), "torque", units.factor("N m"), phrase("torque at the rig [{unit}]", unit=units.unit("N m")),
+                (phrase("Torque by depth of the bit"), "torque", units.factor("N m"),
+                 phrase("torque at the rig [{unit}]", unit=units.unit("N m")),
                  ("torque",))):
-            data = [line([factor * value for value in found.column(field, number)], [units.factor("m") * depth for depth in depths], name, number)
+            data = [line([factor * value for value in found.column(field, number)],
+                         [units.factor("m") * depth for depth in depths], name, number)
                     for number, name in enumerate(OPERATION_NAMES)]
             shapes = self._limit_lines({limit: -factor if limit == "push" else factor for limit in limits}, data)
-            self.figures.append((title, phrase("Soft string in steady motion, {load} while drilling and sliding; dashed: limits of the rig.", load=load), {
-                "data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes, "yaxis": {
-                    "title": {"text": phrase("measured depth of the bit [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}))
-        self.out.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
+            self.figures.append((title,
+                                 phrase("Soft string in steady motion, {load} while drilling and sliding; dashed: "
+                                        "limits of the rig.", load=load), {
+                "data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes,
+                                         "yaxis": {
+                    "title": {"text": phrase("measured depth of the bit [{unit}]", unit=units.unit("m"))},
+                    "autorange": "reversed"}}}))
+        self.out.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load),
+                                                  "torque_N_m": finite(row.torque)}
                                               for name, row in zip(OPERATION_NAMES, found.rows[-1])}
 
     def _soft_demands(self, rows: Any) -> None:
@@ -213,7 +234,8 @@ class Study:
             source = phrase("soft string, {operation}", operation=name)
             if row.locked:
                 for key in ("push", "torque", "yield_stress"):
-                    self.demands[key].failed.append(phrase("{source}: the string locks up, no thrust moves the bit", source=source))
+                    self.demands[key].failed.append(phrase("{source}: the string locks up, no thrust moves the bit",
+                                                           source=source))
                 continue
             self.demands["pull" if row.hook_load > 0.0 else "push"].add(abs(row.hook_load), source)
             self.demands["torque"].add(row.torque, source)
@@ -223,27 +245,34 @@ class Study:
 
     def _yield_strength(self) -> float:
         """[Pa] of all pipes; NaN where they differ or one has none: then no stress follows from the share."""
-        given = {pipes.get("yield_strength", 0.0) for name, arguments in self.scene.model.calls if name == "add_pipes" for pipes in arguments[1:2]}
+        given = {pipes.get("yield_strength", 0.0) for name, arguments in self.scene.model.calls if name == "add_pipes"
+                 for pipes in arguments[1:2]}
         return float(min(given)) if len(given) == 1 and min(given) > 0.0 else math.nan
 
     def _confinement(self, rows: Any) -> None:
         """Largest share of the buckling loads of a pipe confined by its hole, in all operations."""
         title = phrase("Buckling in the hole")
-        free = [(row.helical_share, row.sinusoidal_share, row.buckled_at, number) for number, row in enumerate(rows) if not row.locked]
+        free = [(row.helical_share, row.sinusoidal_share, row.buckled_at, number) for number, row in enumerate(rows)
+                if not row.locked]
         if len(free) < len(rows):
             locked = joined(", ", [name for name, row in zip(OPERATION_NAMES, rows) if row.locked])
-            self.tiles.append(Tile(title, phrase("locks up"), phrase("no thrust at the rig moves the bit: {operations}", operations=locked), OVER))
+            self.tiles.append(Tile(title, phrase("locks up"), phrase("no thrust at the rig moves the bit: {operations}",
+                                                                     operations=locked), OVER))
         elif not all(math.isfinite(share) for share, *_ in free):
-            self.tiles.append(Tile(title, phrase("not assessed"), phrase("the shares of the buckling loads are not defined for this string"), NOT_ASSESSED))
+            self.tiles.append(Tile(title, phrase("not assessed"),
+                                   phrase("the shares of the buckling loads are not defined for this string"),
+                                   NOT_ASSESSED))
         else:
             helical, sinusoidal, depth, number = max(free)
             if not self.plan.weight_on_bit:
                 verdict, text = NOT_ASSESSED, phrase("the scene gives no bit load")
             else:
                 verdict = OVER if helical > 1.0 else NEAR if helical > NEAR_SHARE or sinusoidal > 1.0 else OK
-                text = phrase("{operation}, at {depth}; {share:.3g} % of the sinusoidal buckling load", operation=OPERATION_NAMES[number],
+                text = phrase("{operation}, at {depth}; {share:.3g} % of the sinusoidal buckling load",
+                              operation=OPERATION_NAMES[number],
                               depth=self.units.text(depth, "m"), share=100.0 * sinusoidal)
-            self.tiles.append(Tile(title, phrase("{share:.3g} % of the helical buckling load", share=100.0 * helical), text, verdict))
+            self.tiles.append(Tile(title, phrase("{share:.3g} % of the helical buckling load", share=100.0 * helical),
+                                   text, verdict))
 
     def _limit_lines(self, limits: dict[str, float], data: list[dict[str, Any]]) -> list[dict[str, Any]]:
         """Upright lines at limits of the rig, each times its factor; those far off would hide the curves."""
@@ -263,18 +292,21 @@ class Study:
                 for number, (operation, found) in enumerate(self.operations.items())
                 for values in [getattr(found, name) if limit == "push" else abs(found.torque)]]
         shapes = self._limit_lines({limit: -factor if limit == "push" else factor}, data)
-        return {"data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes, "yaxis": {
+        return {"data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes,
+                                         "yaxis": {
             "title": {"text": phrase("measured depth [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}
 
     # ---- Linear analyses --------------------------------------------------------------------------------------------
     def _speeds(self) -> None:
         if "speeds" not in self.scene.analyses:
-            self.tiles.append(Tile(phrase("Critical speeds"), phrase("not assessed"), phrase("the scene has no [speeds] table"), NOT_ASSESSED))
+            self.tiles.append(Tile(phrase("Critical speeds"), phrase("not assessed"),
+                                   phrase("the scene has no [speeds] table"), NOT_ASSESSED))
             return
         self.speeds = found = speeds(self.scene, self.out.note_text)
         for note in found.notes():
             self.out.note_text(note)
-        self.out.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi] for band in found.bands]
+        self.out.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi]
+                                          for band in found.bands]
         self.tiles.append(speeds_tile(found, self.plan))
         if found.assessed:
             self.figures.append(speeds_figure(found))
@@ -290,13 +322,16 @@ class Study:
                                      if key.startswith("slip")})
             self.hole = hole_view(self.scene, sim.profile(self.part, self.pipes), self.units)
             course = Frames([self._shape(sim)], [sim.time])
-            self.figures.insert(0, (phrase("The string in its hole"), phrase("Displacement across the hole is enlarged so that the hole can be seen; the "
-                                    "button draws it to scale. Drag to rotate, play or slide through the run."), {}))
+            self.figures.insert(0, (phrase("The string in its hole"),
+                                    phrase("Displacement across the hole is enlarged so that the hole can be seen; the "
+                                           "button draws it to scale. Drag to rotate, play or slide through the run."),
+                                    {}))
             try:
                 if "end" in self.scene.run:
                     self._in_time(sim, course)
                 else:
-                    self.tiles.append(Tile(phrase("Run in time"), phrase("not assessed"), phrase("the scene has no [run] end"), NOT_ASSESSED))
+                    self.tiles.append(Tile(phrase("Run in time"), phrase("not assessed"),
+                                           phrase("the scene has no [run] end"), NOT_ASSESSED))
             finally:
                 self.hash = f"{sim.hash():016x}"
                 self.space = in_space(self.scene, course.shapes, self.units)
@@ -313,7 +348,9 @@ class Study:
                 source = phrase("run of {time:.4g} s", time=sim.time)
                 self.demands["push"].add(-load[0], source)
                 self.demands["pull"].add(load[1], source)
-                self.demands["yield_stress"].found += [(stress, phrase("run, at {time:.3g} s (largest of {moments} moments)", time=time, moments=FRAMES))
+                self.demands["yield_stress"].found += [(stress,
+                                                        phrase("run, at {time:.3g} s (largest of {moments} moments)",
+                                                               time=time, moments=FRAMES))
                                                        for stress, time in sorted(course.stresses)[-1:]]
                 self.demands["torque"].add(max(abs(torque[0]), abs(torque[1])), source)
         if self.scene.sim.get("energy_ledger", 1):
@@ -323,7 +360,8 @@ class Study:
     def _fatigue(self, counters: dict[str, StringFatigue]) -> None:
         title = phrase("Fatigue")
         if not counters:
-            self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"), NOT_ASSESSED))
+            self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"),
+                                   NOT_ASSESSED))
             return
         found, counter = report_fatigue(counters, self.out)[self.string], counters[self.string]
         pipe = counter.pipes[counter.worst]
@@ -331,18 +369,25 @@ class Study:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
         elif math.isfinite(found.life):
             self.tiles.append(Tile(title, duration(found.life), phrase(
-                "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve", pipe=pipe),
+                "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve",
+                pipe=pipe),
                 OVER if found.damage > 1.0 else NO_LIMIT))
         else:
-            text = phrase("in this run; largest range {range}, pipe {pipe}", range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
+            text = phrase("in this run; largest range {range}, pipe {pipe}",
+                          range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
             clipped = any(one.clipped for one in counter.results)
             self.tiles.append(Tile(title, phrase("no damage"), text, NOT_ASSESSED if clipped else OK))
-        self.figures.append((phrase("Fatigue along the string"), phrase("Damage of this run by the S-N curve of the scene; 1 is its end."), {
-            "data": [line(counter.pipes, [one.damage for one in counter.results], phrase("damage"), 0)], "layout": {"xaxis": {"title": {
-                "text": phrase("pipe, counted from 0 at the rig end")}}, "yaxis": {"title": {"text": phrase("damage [-]")}, "exponentformat": "power"}}}))
+        self.figures.append((phrase("Fatigue along the string"),
+                             phrase("Damage of this run by the S-N curve of the scene; 1 is its end."), {
+            "data": [line(counter.pipes, [one.damage for one in counter.results], phrase("damage"), 0)],
+            "layout": {"xaxis": {"title": {
+                                 "text": phrase("pipe, counted from 0 at the rig end")}},
+                       "yaxis": {"title": {"text": phrase("damage [-]")}, "exponentformat": "power"}}}))
         ranges, cycles = counter.counter.histogram(counter.worst)
-        known = [(1e-6 * self.units.factor("MPa") * stress, count) for stress, count in zip(ranges, cycles) if count > 0.0]
-        self.figures.append((phrase("Cycles of stress at pipe {pipe}", pipe=pipe), phrase("Rainflow counting of the run; cycles that did not close count half."), {
+        known = [(1e-6 * self.units.factor("MPa") * stress, count) for stress, count in zip(ranges, cycles)
+                 if count > 0.0]
+        self.figures.append((phrase("Cycles of stress at pipe {pipe}", pipe=pipe),
+                             phrase("Rainflow counting of the run; cycles that did not close count half."), {
             "data": [{"type": "bar", "x": rounded([one for one, _ in known]), "y": rounded([one for _, one in known]),
                       "marker": {"color": COLOURS[1]}}], "layout": {
                           "xaxis": {"title": {"text": phrase("stress range [{unit}]", unit=self.units.unit("MPa"))}},
@@ -354,7 +399,8 @@ class Study:
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.outputs],
                                 int(end / interval) + 3, interval) if self.scene.outputs else None
         state = RunState(self.scene, sim, self.out, [end, step])
-        parts: dict[str, Kept] = {"frames": course, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
+        parts: dict[str, Kept] = {"frames": course, **{f"fatigue of {name}": KeptFatigue(one)
+                                                       for name, one in counters.items()}}
         state.take_up(parts if recorder is None else {**parts, "recorder": KeptRecorder(recorder)})
         every = max(1, round(end / FRAMES / step)) * step if step else end / FRAMES
         begin, stopped, notes = course.times[0], False, dict[Status, str]()
@@ -366,7 +412,8 @@ class Study:
             with INTERRUPTS.held():
                 while not at_end() and not INTERRUPTS.pending:
                     done = len(course.times) - 1
-                    at = sim.run_noting(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), commands.LOOK,
+                    at = sim.run_noting(min(end, begin + (done + 1) * every), step, recorder,
+                                        lambda _: stop_asked(state, dict), commands.LOOK,
                                         [course, *counters.values()], begin + done * every)
                     notes.update(at.notes)
                     if not INTERRUPTS.pending or at_end():
@@ -377,7 +424,8 @@ class Study:
         if stopped:
             state.stopped(end, {})
             for demand in self.demands.values():
-                demand.failed.append(phrase("the end of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
+                demand.failed.append(phrase("the end of the run, which was stopped at {time:g} s of {end:g} s",
+                                            time=sim.time, end=end))
         else:
             state.keep({}, MOST_BYTES)  # until the page is made
             self.state = state
@@ -390,7 +438,8 @@ class Study:
                 name, factor = self.units.head(head), self.units.factor_of(head)
                 self.figures.append((words_of(name), phrase("In the run."), {
                     "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
-                    "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
+                    "layout": {"xaxis": {"title": {"text": phrase("time [s]")}},
+                               "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
 
     def _shape_of(self, sim: Sim, course: Frames) -> None:
         """One more frame, and its largest stress."""

@@ -38,7 +38,8 @@ class Speeds:
 
     @property
     def partial(self) -> bool:
-        """True if an order or an output has no response, or the sliding state no solution: a speed in no band is not free of critical ones."""
+        """True if an order or an output has no response, or the sliding state no solution: a speed in no band is not
+        free of critical ones."""
         return bool(self.bands.report.silent_orders or self.unmoved or self.refused)
 
     def avoid(self) -> str:
@@ -58,7 +59,8 @@ class Speeds:
         if band.high >= self.grid[-1] * (1.0 - SAME):
             return phrase("{low:.0f} rpm and more", low=low)
         at_low = band.low <= self.grid[0] * (1.0 + SAME)
-        return phrase("{high:.0f} rpm and less", high=high) if at_low else phrase("{low:.0f} to {high:.0f} rpm", low=low, high=high)
+        return (phrase("{high:.0f} rpm and less", high=high) if at_low else phrase("{low:.0f} to {high:.0f} rpm",
+                                                                                   low=low, high=high))
 
     def allowed(self) -> list[tuple[float, float]]:
         """[rpm] The ranges that were assessed and are in no band, in whole revolutions inside."""
@@ -76,25 +78,29 @@ def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
     """The speeds of [speeds], about the string that slides at the rotation of the scene."""
     found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
     names = [one["name"] for one in scene.analyses["speeds"]["output"]]
-    return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent, [names[number] for number in found.unmoved])
+    return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent,
+                  [names[number] for number in found.unmoved])
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:
-    """The verdict on the rotation of the scene. Never OK without excitation, for a rotation outside the range, or with orders that excite
-    nothing or outputs that nothing moves."""
+    """The verdict on the rotation of the scene. Never OK without excitation, for a rotation outside the range, or with
+    orders that excite nothing or outputs that nothing moves."""
     title = phrase("Critical speeds")
     if not found.assessed:
         return Tile(title, phrase("not assessed"), found.silent or NOTHING_EXCITES, NOT_ASSESSED)
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     value = phrase("avoid {bands}", bands=found.avoid()) if found.bands else phrase("none found")
-    text = phrase("assessed between {low:.0f} and {high:.0f} rpm, amplitudes at most {severity:.3g} times their limits. {linear}", low=low, high=high,
+    text = phrase("assessed between {low:.0f} and {high:.0f} rpm, amplitudes at most {severity:.3g} times their "
+                  "limits. {linear}", low=low, high=high,
                   severity=max(found.severity), linear=LINEAR)
     planned = plan.rotation
     if planned is None:
-        return Tile(title, value, phrase("the scene gives no rotation to compare with; {text}", text=text), NOT_ASSESSED)
+        return Tile(title, value, phrase("the scene gives no rotation to compare with; {text}", text=text),
+                    NOT_ASSESSED)
     rpm = planned / RPM
     if not found.grid[0] <= planned <= found.grid[-1]:
-        return Tile(title, value, phrase("the rotation of {rpm:.4g} rpm is outside the range of [speeds]; {text}", rpm=rpm, text=text), NOT_ASSESSED)
+        return Tile(title, value, phrase("the rotation of {rpm:.4g} rpm is outside the range of [speeds]; {text}",
+                                         rpm=rpm, text=text), NOT_ASSESSED)
     inside = any(band.low <= planned <= band.high for band in found.bands)
     near = any(band.low * (1.0 - NEAR_BAND) <= planned <= band.high * (1.0 + NEAR_BAND) for band in found.bands)
     remarks = phrase("rotation {rpm:.4g} rpm; {text}", rpm=rpm, text=text)
@@ -102,9 +108,11 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     if silent:
         remarks = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=remarks)
     if found.unmoved:
-        remarks = phrase("the excitation does not move {outputs}; {text}", outputs=joined(", ", found.unmoved), text=remarks)
+        remarks = phrase("the excitation does not move {outputs}; {text}", outputs=joined(", ", found.unmoved),
+                         text=remarks)
     if found.refused:
-        remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=remarks)
+        remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; "
+                         "{text}", text=remarks)
     return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if found.partial else OK)
 
 
@@ -112,8 +120,11 @@ def speeds_figure(found: Speeds) -> Figure:
     """Severity over rotary speed, bands shaded."""
     shapes = [{"type": "rect", "x0": band.low / RPM, "x1": band.high / RPM, "yref": "paper", "y0": 0, "y1": 1,
                "fillcolor": "#E69F00", "opacity": 0.35, "line": {"width": 0}} for band in found.bands]
-    return (phrase("Severity by rotary speed"), phrase("Severity 1 is the limit of an amplitude; shaded speeds are to be avoided. {linear}", linear=LINEAR), {
-        "data": [line([one / RPM for one in found.grid], found.severity, phrase("amplitude over limit"), 0)], "layout": {
+    return (phrase("Severity by rotary speed"),
+            phrase("Severity 1 is the limit of an amplitude; shaded speeds are to be avoided. {linear}", linear=LINEAR),
+            {
+        "data": [line([one / RPM for one in found.grid], found.severity, phrase("amplitude over limit"), 0)],
+        "layout": {
             "shapes": shapes, "xaxis": {"title": {"text": phrase("rotary speed [rpm]")}},
             "yaxis": {"title": {"text": phrase("amplitude over limit [-]")}, "type": "log"}}})
 
@@ -130,7 +141,8 @@ def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], out: CommandOutp
     title = phrase("Buckling, nonlinear")
     if factor is None:
         return Tile(title, phrase("none found"), phrase("no critical factor within the searched range"), NOT_ASSESSED)
-    text = (phrase("lowest critical factor of the loads in [buckling]; confirmed on the equilibrium path") if confirmed else
+    text = (phrase("lowest critical factor of the loads in [buckling]; confirmed on the equilibrium path") if confirmed
+            else
             phrase("lowest critical factor of the loads in [buckling]; extrapolated, not confirmed"))
     return Tile(title, phrase("factor {factor:.4g}", factor=factor), text,
                 OVER if factor < 1.0 else NEAR if factor < 1.0 / NEAR_SHARE else OK if confirmed else NOT_ASSESSED)

@@ -44,7 +44,8 @@ class Tile:
 
     def line(self) -> str:
         """The tile in one line."""
-        return phrase("{title}: {value}, {verdict} ({text})", title=self.title, value=self.value, verdict=self.verdict, text=self.text)
+        return phrase("{title}: {value}, {verdict} ({text})", title=self.title, value=self.value, verdict=self.verdict,
+                      text=self.text)
 
     def __str__(self) -> str:
         return self.line()
@@ -61,8 +62,8 @@ class Demand:
     units: Units = SI                                             #: of the texts
 
     def add(self, value: float, source: str) -> None:
-        """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing. NaN counts as an analysis without a
-        result, so that the verdict is not OK."""
+        """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing. NaN counts
+        as an analysis without a result, so that the verdict is not OK."""
         if math.isnan(value):
             self.failed.append(phrase("{source}: no value", source=source))
         else:
@@ -78,18 +79,20 @@ class Demand:
         return self.value / self.limit if self.value is not None and self.limit else None
 
     def tile(self) -> Tile:
-        """Value, limit and share, and which analysis gave the largest value. With a failed analysis, or a load that no analysis has, the
-        verdict is never OK."""
+        """Value, limit and share, and which analysis gave the largest value. With a failed analysis, or a load that no
+        analysis has, the verdict is never OK."""
         if not self.found:
             reasons: str = joined("; ", self.failed) if self.failed else phrase("no analysis gave a value")
             return Tile(self.title, phrase("not computed"), reasons, NOT_COMPUTED)
         value, source = max(self.found)
-        text: str = phrase("largest of {count} analyses: {source}", count=len(self.found), source=source) if len(self.found) > 1 else source
+        text: str = phrase("largest of {count} analyses: {source}", count=len(self.found),
+                           source=source) if len(self.found) > 1 else source
         if self.failed:
             text = phrase("{text}; without {reasons}", text=text, reasons=joined("; ", self.failed))
         share = self.share
         if share is None or self.limit is None:
             return Tile(self.title, shown(value, self.unit, self.units), text, NO_LIMIT)
         verdict = OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.failed else OK
-        return Tile(self.title, shown(value, self.unit, self.units), phrase("{share:.0f} % of {limit}; {text}", share=100.0 * share, limit=shown(
+        return Tile(self.title, shown(value, self.unit, self.units), phrase("{share:.0f} % of {limit}; {text}",
+                                                                            share=100.0 * share, limit=shown(
             self.limit, self.unit, self.units), text=text), verdict)

@@ -28,8 +28,8 @@ from .sub import Subs
 from .segments import by_numbers
 
 MOST_BYTES = 50_000_000
-#: [s] damping_time of pipes that a scene file does not give: 0.03 % of critical damping at 1 Hz, 3 % at 100 Hz. Without any,
-#: vibrations of a run do not decay.
+#: [s] damping_time of pipes that a scene file does not give: 0.03 % of critical damping at 1 Hz, 3 % at 100 Hz. Without
+#: any, vibrations of a run do not decay.
 USUAL_DAMPING = 1e-4
 
 
@@ -92,7 +92,8 @@ def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: st
     return scene, loader.undivided
 
 #: Kinds of the parts that a key names; those of other keys: any part.
-NAMES_OF = {"time_function": ("time_function",), "excitation": ("time_function",), "load": ("time_function",), "string": ("string",), "stabiliser": ("stabiliser",),
+NAMES_OF = {"time_function": ("time_function",), "excitation": ("time_function",), "load": ("time_function",),
+            "string": ("string",), "stabiliser": ("stabiliser",),
             "input": ("input",), "body": ("body",), "third_joint": ("joint",), "fourth_joint": ("joint",)}
 
 
@@ -115,7 +116,8 @@ class Loader:
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "catalogue", "run", "results", "limits", "output", "time_function", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
+        known = ["title", "catalogue", "run", "results", "limits", "output", "time_function", "sub", *SINGLE, *PARTS,
+                 *ANALYSES, "compile", "sim", "variability",
                  "failure"]
         for key in self.content:
             if key not in known:
@@ -179,7 +181,8 @@ class Loader:
             if not isinstance(name, str) or not name:
                 self.problems.add(path + ("name",), name, "must be a text that is not empty")
             elif name in self.kinds:
-                self.problems.add(path + ("name",), name, f"names a {self.kinds[name].replace('_', ' ')} already; every name once")
+                self.problems.add(path + ("name",), name,
+                                  f"names a {self.kinds[name].replace('_', ' ')} already; every name once")
             else:
                 self.kinds[name] = kind
                 self.paths[kind, name] = path
@@ -257,7 +260,8 @@ class Loader:
 
     def _is_outside(self, path: Path, field: Field, written: Any, value: Any) -> bool:
         """Whether a number of a setting is outside its range, which becomes a problem."""
-        reason = next(filter(None, (field.outside(float(one)) for one in (value if isinstance(value, (list, tuple)) else [value])
+        reason = next(filter(None, (field.outside(float(one))
+                                    for one in (value if isinstance(value, (list, tuple)) else [value])
                                     if isinstance(one, (int, float)))), "")
         if reason:
             self.problems.add(path, written, reason)
@@ -283,8 +287,11 @@ class Loader:
             self.problems.add(path, value, f"names no {kinds[0].replace('_', ' ') if len(kinds) == 1 else 'part'}"
                               + meant(str(value), [name for name, kind in self.kinds.items() if kind in kinds]))
         elif not self.problems.found:
-            self.problems.add(path, value, f"names a {self.kinds[value].replace('_', ' ')} that is made after this; time functions come first, "
-                                           "then strings, subs, bodies, bits, stabilisers, joints, couplings, drives, loads, springs, "
+            self.problems.add(path, value,
+                              f"names a {self.kinds[value].replace('_', ' ')} that is made after this; time functions "
+                              "come first, "
+                                           "then strings, subs, bodies, bits, stabilisers, joints, couplings, drives, "
+                                           "loads, springs, "
                                            "stuck places, inputs")
         return None
 
@@ -340,7 +347,8 @@ class Loader:
     def _follows_from_refused(self, path: Path, name: str, values: dict[str, Any], text: str) -> bool:
         """Whether the library refuses a default instead of a value that was refused, or a value beside it."""
         refused = self.problems.refused_below(path) & set(self.table(path))
-        return (name in refused and name not in values) or any(re.search(rf"\b{one}\b", text) for one in refused - {name})
+        return ((name in refused and name not in values) or any(re.search(rf"\b{one}\b", text)
+                                                                for one in refused - {name}))
 
     def written(self, path: Path) -> Any:
         value: Any = self.content
@@ -353,7 +361,8 @@ class Loader:
 
     def _describe(self) -> None:
         if "environment" in self.content:
-            values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]), ("viscometer",))
+            values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]),
+                               ("viscometer",))
             mud = self._viscometer(("environment", "viscometer"), self.table(("environment",)))
             if mud is not None:  # else the library would miss the constants that follow from it
                 self.add(("environment",), self.model.set_environment, DEFINITIONS["environment"], {**values, **mud})
@@ -375,8 +384,10 @@ class Loader:
             return {}
         for key in {"consistency", "flow_exponent", "yield_stress"} & set(environment):
             self.problems.add(path[:1] + (key,), environment[key], "must be left out with viscometer, which gives it")
-        if not isinstance(given, dict) or not all(re.fullmatch(r"\d+", key) and type(one) in (int, float) for key, one in given.items()):
-            self.problems.add(path, given, "must be a table of readings in degrees by speed in rpm, as {600 = 52, 300 = 34}")
+        if not isinstance(given, dict) or not all(re.fullmatch(r"\d+", key) and type(one) in (int, float)
+                                                  for key, one in given.items()):
+            self.problems.add(path, given,
+                              "must be a table of readings in degrees by speed in rpm, as {600 = 52, 300 = 34}")
             return None
         try:
             mud = viscometer.fit([(float(key), float(one)) for key, one in given.items()])
@@ -391,7 +402,9 @@ class Loader:
                 self.problems.unknown(path + (key,), ("name", "unit", "segment"))
         unit = self.units.get(name) or table.get("unit")
         if not isinstance(unit, str):
-            self.unused.append((path, f"time function {name} is used by no drive, load or bit: take it out, or give its unit"))
+            self.unused.append((path,
+                                f"time function {name} is used by no drive, load or bit: take it out, or give its "
+                                "unit"))
             return
         self.units[name] = unit
         segments = self.tables(table, path, "segment")
@@ -435,7 +448,8 @@ class Loader:
         if "table" in table:
             values["table"] = self.pairs(path + ("table",), table["table"], "s", unit, "time and value")
             if kind not in (None, enums.SEGMENT_TABLE, enums.SEGMENT_PERIODIC):
-                self.problems.add(path + ("kind",), table["kind"], 'must be "table" or "periodic" with a table; leave out the one or the other')
+                self.problems.add(path + ("kind",), table["kind"],
+                                  'must be "table" or "periodic" with a table; leave out the one or the other')
             if kind != enums.SEGMENT_PERIODIC:
                 values.pop("kind", None)
         elif kind in (enums.SEGMENT_TABLE, enums.SEGMENT_PERIODIC):
@@ -451,7 +465,8 @@ class Loader:
         if any(not by_numbers(segment) for segment in self.segments[of]):
             self.problems.add(path + ("of",), of, "must name a time function without segments per revolution")
         if values.get("share") and unit != "rad/s":
-            self.problems.add(path + ("share",), table["share"], f"is of a speed in rad/s, and this time function is in {unit}; use h1")
+            self.problems.add(path + ("share",), table["share"],
+                              f"is of a speed in rad/s, and this time function is in {unit}; use h1")
         values["of"] = self.names.get(of)
 
     def pairs(self, path: Path, rows: Any, first: str, second: str, what: str) -> list[tuple[float, float]]:
@@ -483,7 +498,8 @@ class Loader:
         self.pipes[name] = 0
         sections = self.tables(table, path, "pipes")
         if not sections:
-            self.problems.add(path, None, f"must have pipes: [[{'.'.join(one for one in path if isinstance(one, str))}.pipes]]")
+            self.problems.add(path, None,
+                              f"must have pipes: [[{'.'.join(one for one in path if isinstance(one, str))}.pipes]]")
         for where, section in sections:
             count = section.get("count", 1)
             if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= 2 ** 20:
@@ -491,10 +507,12 @@ class Loader:
                 count = 1
             known = {key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"}
             plain = self.read(where, section, known, ("count", "pipe"))
-            if "pipe" in self.problems.refused_below(where):  # its diameters are not known: no second fault of the default ones
+            # its diameters are not known: no second fault of the default ones
+            if "pipe" in self.problems.refused_below(where):
                 plain = {key: value for key, value in plain.items() if key == "length"}
             if 0.0 < plain.get("joint_outer_diameter", 0.0) < plain.get("outer_diameter", 0.073) - 1e-6:
-                self.problems.remark(where + ("joint_outer_diameter",), section["joint_outer_diameter"], "is smaller than the pipe's outer_diameter")
+                self.problems.remark(where + ("joint_outer_diameter",), section["joint_outer_diameter"],
+                                     "is smaller than the pipe's outer_diameter")
             if string is not None:
                 plain["string"] = string
                 plain.setdefault("damping_time", USUAL_DAMPING)
@@ -518,7 +536,8 @@ class Loader:
                    for key in fields.OF_COMPONENT if kind == "drive"}
         if kind == "input":
             special = self._setting_units(known, table)
-        values = self.read(path, table, known, {"spring": ("name", "table"), "drive": ("name", *fields.DRIVE_PAIRS)}.get(kind, ("name",)),
+        values = self.read(path, table, known,
+                           {"spring": ("name", "table"), "drive": ("name", *fields.DRIVE_PAIRS)}.get(kind, ("name",)),
                            special.get)
         for key in fields.DRIVE_PAIRS if kind == "drive" else ():
             if key in table:
@@ -540,9 +559,11 @@ class Loader:
             self.put(name, kind, self.add(path, getattr(self.model, "add_" + kind), struct, values))
 
     def _motor(self, path: Path, table: dict[str, Any]) -> dict[str, Any]:
-        """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no time function."""
+        """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no time
+        function."""
         given, before, where = table.pop("motor"), len(self.problems.found), path + ("motor",)
-        table.update(kind="control", component="rx", **({} if "time_function" in table else {"time_function": "0 rad/s"}))
+        table.update(kind="control", component="rx",
+                     **({} if "time_function" in table else {"time_function": "0 rad/s"}))
         if not isinstance(given, dict):
             self.problems.add(where, given, "must be a table of the keys of a mud motor")
             return {}
@@ -557,7 +578,9 @@ class Loader:
         try:
             drive, speed = motor_drive(**values)
         except (Error, ValueError) as error:
-            self.problems.add(where, None, f"{error}: must have flow with displacement and stall_torque or pressure, or with a table "
+            self.problems.add(where, None,
+                              f"{error}: must have flow with displacement and stall_torque or pressure, or with a "
+                              "table "
                                            "of 2 .. 15 increasing speeds from 0 to no load, where the torque is 0")
             return {}
         if table["time_function"] == "0 rad/s":
@@ -611,7 +634,8 @@ class Loader:
         for number, (_, one) in enumerate(self.parts("drive")):
             if self.name("drive", number, one) == part:
                 of_drive = fields_of(DEFINITIONS["drive"])
-                drive = (self.word(of_drive["kind"], one.get("kind"), 0), self.word(of_drive["component"], one.get("component"), 0))
+                drive = (self.word(of_drive["kind"], one.get("kind"), 0),
+                         self.word(of_drive["component"], one.get("component"), 0))
         return fields.setting_units(self.word(known["target"], table.get("target"), 0), drive)
 
     def _inline_time_functions(self, kind: str, path: Path, table: dict[str, Any]) -> None:
@@ -620,7 +644,8 @@ class Loader:
         unit = {"bit": "N", "load": "-"}.get(kind) or self.drive_unit(table)
         for key in keys:
             value = table.get(key)
-            if key in table and (not isinstance(value, str) or (value not in self.kinds and re.match(r"\s*[-+.\d]", value))):
+            if key in table and (not isinstance(value, str)
+                                 or (value not in self.kinds and re.match(r"\s*[-+.\d]", value))):
                 try:
                     constant = units.parse(value, unit)
                     self.problems.remark(path + (key,), value, units.remark(value, unit))
@@ -634,7 +659,7 @@ class Loader:
                 self.inline.add(name)
                 table[key] = name
 
-    # ---- The end -------------------------------------------------------------------------------------------------------
+    # ---- The end -----------------------------------------------------------------------------------------------------
     def _compile(self, values: dict[str, Any]) -> None:
         try:
             self.model.compile(**values)

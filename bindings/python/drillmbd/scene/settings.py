@@ -18,13 +18,15 @@ RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
        "static": Field("static", "integer", about="true: starts from the static state of [static]")}
 OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
           "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none"),
-          "units": Field("units", "enum", enum=UnitSystem, about="of texts, tables and pictures; files for ParaView and summary.json stay in SI")}
+          "units": Field("units", "enum", enum=UnitSystem,
+                         about="of texts, tables and pictures; files for ParaView and summary.json stay in SI")}
 
 LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
           "push": Field("push", "quantity", "N", about="of the rig"),
           "pull": Field("pull", "quantity", "N", about="of the rig"),
           "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes"),
-          "make_up_torque": Field("make_up_torque", "quantity", "N m", about="of the threads, limit of the failure connection-torque")}
+          "make_up_torque": Field("make_up_torque", "quantity", "N m",
+                                  about="of the threads, limit of the failure connection-torque")}
 
 # Settings of which the second must be above the first, and whether it may be equal to it.
 ORDERED = {"speeds": ("speed_low", "speed_high", False), "response": ("frequency_low", "frequency_high", True)}
@@ -76,7 +78,8 @@ class Asked:
             self._curve(table)
         self._check_order(kind, values)
         if kind == "response":
-            values["excitation"] = [self._excitation(path, one) for path, one in self.loader.tables(table, (kind,), "excitation")]
+            values["excitation"] = [self._excitation(path, one)
+                                    for path, one in self.loader.tables(table, (kind,), "excitation")]
         if kind == "speeds":
             order = {"order": fields_of(DEFINITIONS["order"])["order"]}
             values["order"] = [{**self._excitation(path, one, ("order",)),
@@ -103,7 +106,8 @@ class Asked:
         if ends[0] < ends[1] or (may_be_equal and ends[0] == ends[1]):
             return
         key, other, words = (high, low, "above") if high in values else (low, high, "below")
-        written = self.loader.written((kind, other)) or f"{getattr(default, other):g} {fields_of(DEFINITIONS[kind])[other].unit} by default"
+        written = self.loader.written((kind, other)) or \
+            f"{getattr(default, other):g} {fields_of(DEFINITIONS[kind])[other].unit} by default"
         self.loader.problems.add((kind, key), self.loader.written((kind, key)), f"must be {words} {other}, {written}")
 
     def _curve(self, table: dict[str, Any]) -> None:
