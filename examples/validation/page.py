@@ -51,9 +51,11 @@ ABSENT = (
      "abstracts of papers and thesis were found, tables of parameters and limit cycles were not"),
     ("Helical buckling experiments in pipes", "no table of measured loads was found"),
     ("Flexible slider-crank (Simeon 1996; Test Set for IVP Solvers, problem crank)",
-     "its digits are of a rod with two lateral shapes, without the stiffness that the axial force adds, and with a matrix of axial masses that is 15 times "
-     "that of the beam (crank.f of tpetzoldt/deSolve): a beam that has that stiffness cannot reproduce them"),
-    ("Flexible slider-crank of the library of benchmarks, rotating shaft of Bauchau", "parameters or reference digits were not found"),
+     "its digits are of a rod with two lateral shapes, without the stiffness that the axial force adds, and with a "
+     "matrix of axial masses that is 15 times that of the beam (crank.f of tpetzoldt/deSolve): a beam that has that "
+     "stiffness cannot reproduce them"),
+    ("Flexible slider-crank of the library of benchmarks, rotating shaft of Bauchau",
+     "parameters or reference digits were not found"),
     ("Coupled axial and torsional vibration of a distributed string (Aarsnes, van de Wouw 2019)",
      "the parameters that belong to the published roots were not found; the axial model is compared by its "
      "characteristic equation"))
