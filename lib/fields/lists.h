@@ -370,7 +370,7 @@
     X(13, dmb_drive_def, "drive", DMB_PART_DRIVE, 80, DMB_DRIVE_FIELDS) \
     X(14, dmb_load_def, "load", DMB_PART_LOAD, 88, DMB_LOAD_FIELDS) \
     X(15, dmb_spring_def, "spring", DMB_PART_SPRING, 184, DMB_SPRING_FIELDS) \
-    X(16, dmb_force_def, "force", DMB_PART_FORCE, 280, DMB_FORCE_FIELDS) \
+    X(16, dmb_force_def, "force", DMB_PART_FORCE, 296, DMB_FORCE_FIELDS) \
     X(17, dmb_stuck_def, "stuck", DMB_PART_STUCK, 128, DMB_STUCK_FIELDS) \
     X(18, dmb_sub_def, "sub", 0, 56, DMB_SUB_FIELDS) \
     X(19, dmb_input_def, "input", DMB_PART_INPUT, 88, DMB_INPUT_FIELDS) \

@@ -35,7 +35,7 @@
     X(fatigue_options, 72)      \
     X(fatigue_result, 80)       \
     X(flow_state, 96)           \
-    X(force_def, 280)           \
+    X(force_def, 296)           \
     X(hole_point, 120)          \
     X(hole_section, 104)        \
     X(excitation, 56)           \
