@@ -45,7 +45,7 @@ static void tell_hole(const dmb_model *model)
     for (double depth = 10.0; depth < 60.0; depth += 11.0)
         if (dmb_query_hole(model, depth, &at) >= 0)
             printf("%4.0f m: %5.1f mm, friction %.2f, %3.0f MPa %s\n", depth, 1e3 * at.diameter, at.mu_dynamic,
-                   1e-6 * at.strength, at.section < 0 ? "(casing)" : at.section_name);
+                   1e-6 * at.strength, at.section == DMB_NONE ? "(casing)" : at.section_name);
 }
 
 static void tell_string(dmb_sim *sim)

@@ -138,9 +138,10 @@ class Reader:
                 continue
             first, *rest = declaration.split(",")
             base, name, array = re.match(r"(.*?[ *])(\w+)(\[\w+\])?$", first).groups()
-            for part in [name + (array or "")] + [other.strip() for other in rest]:
-                bare = re.match(r"\w+", part).group(0)
-                found.append((bare, self.ctype(base.strip() + " " + part), unit, text))
+            parts = [name + (array or "")] + [other.strip() for other in rest]
+            names = [re.match(r"\w+", part).group(0) for part in parts]
+            units = units_of(names, unit)
+            found += [(bare, self.ctype(base.strip() + " " + part), units[bare], text) for bare, part in zip(names, parts)]
         return found
 
     def structs(self):
@@ -165,7 +166,7 @@ class Reader:
             if "DMB_STATUS_LIST" in body:
                 continue
             members = [(name, int(value), words(text)) for name, value, text in
-                       re.findall(r"DMB_(\w+) = (-?\d+)\s*(?:,|\Z|(?=/))[ \t]*(/\*.*?\*/)?", body, re.S)]
+                       re.findall(r"DMB_(\w+) = (-?\d+)\s*(?:,|\Z|(?=/))[ \t]*(/\*.*?\*/)?", spread(body), re.S)]
             if len(members) != len(re.findall(r"\bDMB_\w+ =", without_comments(body))):
                 raise SystemExit(f"generate.py: a constant after {members and members[0][0]} is no plain whole number")
             for group in split_by_prefix(members):
@@ -189,6 +190,23 @@ class Reader:
         for name in self.sized:
             found.append((name + "_init", f"c_int32, POINTER({class_name(name)}), c_uint32", ""))
         return found
+
+
+def is_plain(name):
+    return name != "struct_size" and not re.search(r"reserved\d*$", name)
+
+
+def units_of(names, unit):
+    """Units of the members of one declaration: "m; rad" is one for each."""
+    own = [name for name in names if is_plain(name)]
+    units = unit.split("; ")
+    return {**dict.fromkeys(names, unit), **(dict(zip(own, units)) if len(units) == len(own) else {})}
+
+
+def spread(body):
+    """Constants in one line before a comment share it."""
+    return re.sub(r"((?:DMB_\w+ = -?\d+,?[ \t]*){2,})(/\*.*?\*/)",
+                  lambda match: re.sub(r"= -?\d+,?", lambda one: f"{one.group(0)} {match.group(2)}", match.group(1)), body, flags=re.S)
 
 
 def unit_and_text(text):
@@ -226,7 +244,10 @@ def constants(reader):
     known = {"UINT32_MAX": 0xFFFFFFFF}
     known.update({"DMB_" + name: value for _, members in reader.enums() for name, value, _ in members})
     text = (LISTS / "bounds.h").read_text(encoding="utf-8")
-    known.update({name: float(value) for name, value in re.findall(r"^#define (DMB_\w+) (\S+)", text, re.M)})
+    shared = {name: float(value.strip("()")) for name, value in re.findall(r"^#define (DMB_NOT_GIVEN|DMB_UNLIMITED) (\S+)", reader.text, re.M)}
+    known.update(shared)
+    known.update({name: shared[value] if value in shared else float(value)
+                  for name, value in re.findall(r"^#define (DMB_\w+) (\S+)", text, re.M)})
     known.update({name: int(value) for name, value in re.findall(r"^    (DMB_\w+) = (\d+)", text, re.M)})
     return known
 
@@ -284,7 +305,7 @@ def typed_lines(reader, name, calls):
         own = before + after
         keys = [f"{key}: Any = ..." for key in MORE_KEYS.get(struct, ())]
         keys += [f"{field}: {given_type(kind)} = ..." for field, kind, _, _ in structs[struct]
-                 if field != "struct_size" and not re.search(r"reserved\d*$", field) and f"{field}:" not in own]
+                 if is_plain(field) and f"{field}:" not in own]
         given = f"{before}{word}: {struct} | None = None, {after}*, {', '.join(keys)}"
         yield f"    def {method}(self, {given}) -> {result}: ..."
     yield ""
@@ -361,7 +382,7 @@ def constructor_lines(name, fields):
     """The constructor as type checkers and editors see it: misspelt fields and texts for numbers are found there."""
     keys = [f"{key}: Any = ..." for key in MORE_KEYS.get(name, ())]
     keys += ["*"] + [f"{field}: {given_type(kind)} = ..." for field, kind, _, _ in fields
-                     if field != "struct_size" and not re.search(r"reserved\d*$", field)]
+                     if is_plain(field)]
     if keys[-1] == "*":
         keys.pop()
     yield "    if TYPE_CHECKING:"
@@ -372,7 +393,7 @@ def struct_lines(reader, c_name, fields, text):
     name = class_name(c_name)
     bases = ([MIXINS[name]] if name in MIXINS else []) + ["Sized" if c_name in reader.sized else "Record"]
     yield f"class {name}({', '.join(bases)}):"
-    shown = [field for field in fields if field[0] != "struct_size" and not re.search(r"reserved\d*$", field[0])]
+    shown = [field for field in fields if is_plain(field[0])]
     yield f"    c_name, about = {quoted(c_name)}, {quoted(text if len(text.split()) > 2 else reader.users(name))}"
     for field, kind, _, _ in fields:
         yield f"    {field}: {python_type(kind)}"
@@ -447,6 +468,7 @@ def enums_text(reader):
     for name, members in enums:
         lines += enum_lines(name, members)
     lines += [f"{name} = 0xFFFFFFFF" for name in re.findall(r"^#define DMB_(\w+) UINT32_MAX", reader.text, re.M)]
+    lines += [f"{name} = {value.strip('()')}" for name, value in re.findall(r"^#define DMB_(NOT_GIVEN|UNLIMITED) (\S+)", reader.text, re.M)]
     lines += ["", "ENUMS = ("] + [f"    {name}," for name, _ in enums] + [")"]
     return lines + ["", "for _enum in ENUMS:  # help(drillmbd.PIPE_RIGID) tells its own line",
                     '    for _line in (_enum.__doc__ or "").splitlines()[2:-1]:',

@@ -34,8 +34,8 @@ def value_of(word):
     if word == "NaN":
         return math.nan
     for prefix in PREFIXES:
-        if hasattr(enums, prefix + word):
-            return float(getattr(enums, prefix + word))
+        if hasattr(enums, prefix + word.lstrip("-")):
+            return float(getattr(enums, prefix + word.lstrip("-"))) * (-1.0 if word[0] == "-" else 1.0)
     try:
         return float(word)
     except ValueError:
@@ -137,9 +137,9 @@ class Fields(unittest.TestCase):
 
     def test_defaults_that_are_read(self):
         """The reader of comments itself."""
-        for text, wanted in (("x; default 0", [0.0]), ("default (0, 0, -9.81), shape (3)", [0.0, 0.0, -9.81]), ("0 .. ; -1 (default): as outside", [-1.0]),
+        for text, wanted in (("x; default 0", [0.0]), ("default (0, 0, -9.81), shape (3)", [0.0, 0.0, -9.81]), ("0 .. ; NOT_GIVEN (default): as outside", [-1.0]),
                              ("PIPE_..., default PIPE_FLEXIBLE", [0.0]), ("mask; default AXIAL and ROTATION", [3.0]), ("none here", []),
-                             ("default 1e-3 on the diagonal", [1e-3]), ("default -1e30, shape (6)", [-1e30])):
+                             ("default 1e-3 on the diagonal", [1e-3]), ("default -UNLIMITED and UNLIMITED", [-1e30, 1e30])):
             self.assertEqual(stated(text), wanted, text)
 
 

@@ -1,743 +1,564 @@
-/* libdrillmbd - analyses: equilibria, buckling, modes, responses, state space, sensitivities, torque and drag,
- * hydraulics, fatigue. */
+/* libdrillmbd - analyses: statics, buckling, modes, responses, state space, sensitivities, torque and drag, fatigue. */
 #ifndef DRILLMBD_ANALYSE_H
 #define DRILLMBD_ANALYSE_H
-
 #include "ask.h"
-
 DMB_C_BEGIN
 
-/* Same bits, by level. Same build, same machine and same calls give
- *   1. steps, and all that is read off a state: the same bits, beside other work, in any number of threads;
- *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits; they call no BLAS;
- *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the
- *      number of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next
- *      frequency; counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same
- *      bits. */
+/* Analyses see the accepted state of a sim and leave it as it is unless they say otherwise; the sim has their message. Results
+ * are opaque: _destroy gives their memory back, sets the pointer to NULL and accepts NULL. options and report may be NULL. Memory
+ * comes from the sim's allocator, until _destroy or the end of the call. One thread at a time has a sim or a result. Errors of
+ * every function of this header: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _ORDER (within a call on the
+ * sim), _NO_MEMORY; of those that take a sim that is not const also _CALLBACK, _CANCELLED, _ROTATION, _GEOMETRY, _SINGULAR,
+ * _NO_CONVERGENCE as of a step. Results are NULL then, and arrays and reports as before. Further ones stand at each function.
+ *
+ * Same bits: steps and all that is read off a state have the same bits in any number of threads; so have statics, paths,
+ * buckling, responses, stepped sine and safe speeds, which call no BLAS. Modes, and `condition` of a model check, have LAPACK's
+ * digits (examples/README.md, Reproducibility). */
 
-/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run continues
- * without a transient. Time functions that change count with their speed at that time. */
+/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run continues without a
+ * transient. Time functions that change count with their speed at that time. */
 enum {
-    DMB_STEADY_AUTO = 0, /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
-                            about their axis, RIGID else, or where masses are eccentric; AT_REST with
-                            DMB_NOTE_NOT_STEADY (message says why) where neither is steady */
+    DMB_STEADY_AUTO = 0, /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about
+        their axis, RIGID else, or where masses are eccentric; AT_REST with DMB_NOTE_NOT_STEADY where neither is steady */
     DMB_STEADY_AT_REST = 1, /* all is at rest; only components of motion drives have their speed */
     DMB_STEADY_SLIDING = 2, /* axes at rest; strings slide along the hole and turn about their axis as drives say */
-    DMB_STEADY_RIGID = 3    /* all turns about one fixed axis like a rigid body, under centrifugal forces */
+    DMB_STEADY_RIGID = 3 /* all turns about one fixed axis like a rigid body, under centrifugal forces */
 };
 typedef struct dmb_static_options {
-    uint32_t struct_size;
-    uint32_t max_iterations; /* [-] of one load step, 1 .. 10000; default 60 */
-    double tolerance;        /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
-    double slip_axial;       /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
-    double slip_rotation;    /* [rad/s] and turned at this speed; both 0: no friction in the static state. With a slip
-                                the state is quasi-static: until the next step its accelerations are 0 and section
-                                forces contain neither inertia nor damping */
-    uint32_t load_steps;     /* [-] equal steps from no load to full load, at most 10000, before the library chooses
-                                them by itself; default 0: the whole load at once */
-    int32_t lay_on_wall;     /* 1 (default): start from the string lying on the low side of its hole; 0: from the
-                                present pose */
-    int32_t steady;          /* DMB_STEADY_..., default DMB_STEADY_AUTO */
-    int32_t reserved;
+    uint32_t struct_size, max_iterations; /* [-] of one load step, 1 .. 10000; default 60 */
+    double tolerance; /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
+    double slip_axial, slip_rotation; /* [m/s; rad/s] friction acts as if the string slid along the hole and turned at these
+        speeds; both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its
+        accelerations are 0 and section forces contain neither inertia nor damping */
+    uint32_t load_steps; /* [-] equal steps from no load to full load, <= 10000; default 0: by the library */
+    int32_t lay_on_wall; /* 1 (default): start from the string lying on the low side of its hole; 0: from the present pose */
+    int32_t steady, reserved; /* DMB_STEADY_..., default DMB_STEADY_AUTO */
 } dmb_static_options;
 DMB_SIZED_STRUCT(dmb_static_options)
-
 /* Kinds of stiffness by which the stability of a static state is assessed. */
 enum {
-    DMB_STIFFNESS_SYMMETRIC = 0,  /* forces have a potential: the state is stable where no eigenvalue is negative */
-    DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by
-                                     each real negative eigenvalue; by complex ones it may flutter, which depends on
-                                     mass and damping and is computed by dmb_analysis_modes with DMB_MODES_DAMPED */
+    DMB_STIFFNESS_SYMMETRIC = 0, /* forces have a potential: the state is stable where no eigenvalue is negative */
+    DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by each real
+        negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is computed by
+        dmb_analysis_modes with DMB_MODES_DAMPED */
 };
 enum { DMB_STATIC_NEWTON = 0, DMB_STATIC_RELAXATION = 1 };
 typedef struct dmb_static_report {
-    uint32_t struct_size;
-    uint32_t iterations;    /* [-] in all */
-    uint32_t load_steps;    /* [-] carried out */
-    int32_t method;         /* DMB_STATIC_...: the last resort that was needed */
-    double residual;        /* [-] relative, at the end */
-    double largest_force;   /* [N, N m over the element length] largest component of the residual at the end */
-    double lateral_move;    /* [m] largest displacement from the starting pose */
-    uint32_t cuts;          /* [-] load steps that did not converge and were halved */
-    uint32_t line_searches; /* [-] corrections that were shortened by a line search */
-    int32_t negative;  /* [-] negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC:
-                          exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is
-                          known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative
-                          ones: all up to 400 coordinates, else all within reach of the symmetric part, or if there
-                          are any, those among the 108 nearest 0; -1: none was found, and others could not be
-                          excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with
-                          centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes) */
+    uint32_t struct_size, iterations; /* [-] in all */
+    uint32_t load_steps; /* [-] carried out */
+    int32_t method; /* DMB_STATIC_...: the last resort that was needed */
+    double residual, largest_force; /* [-; N, N m over the element length] relative; largest component of it; at the end */
+    double lateral_move; /* [m] largest displacement from the starting pose */
+    uint32_t cuts, line_searches; /* [-] load steps that were halved; corrections that were shortened by a line search */
+    int32_t negative; /* [-] negative eigenvalues of the stiffness (eq:signs.bounds), by which the equilibrium is unstable; -1:
+        not resolved. UNSYMMETRIC: the real negative ones; above 400 coordinates those within reach of the symmetric part, or if
+        there are any, those among the 108 nearest 0. Of a state that moves (`steady`): in its moving axes with centrifugal
+        forces; gyroscopic ones may hold it, or damping not */
     int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was assessed */
-    int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: kind of the state */
-    int32_t steady_reserved;
-    int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn
-                           together counted once: every angle is an equilibrium, and the starting one is kept */
-    int32_t unresolved; /* [-] eigenvalues of rounding size, whose signs the count does not resolve: motions that
-                           nothing resists, or a mesh too fine for double precision; SYMMETRIC only */
-    double resolution;  /* [N/m] largest eigenvalue, rotations over the square of the mean element length, that may be
-                           of rounding size: 4 eps of the largest stiffness */
+    int32_t steady, steady_reserved; /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: kind of the state */
+    int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn together counted
+        once: every angle is an equilibrium, and the starting one is kept */
+    int32_t unresolved; /* [-] eigenvalues of rounding size, whose signs the count does not resolve: motions that nothing resists,
+        or a mesh too fine for double precision; SYMMETRIC only */
+    double resolution; /* [N/m] largest eigenvalue, rotations over the square of the mean element length, that may be of rounding
+        size: 4 eps of the largest stiffness */
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
-
-/* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
- * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails and pipes slip on the
- * wall, from the equilibrium without friction in steps of the friction; where that fails in load steps
- * (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not,
- * with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law
- * does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
- * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the
- * rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit
- * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING requires that rotating parts are
- * round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, supports,
- * joints to the ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED, with the reason. Both take memory, one
- * matrix and some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy
- * ledger restarts. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it
- * (report->free_spins) where the torques about the axis sum to 0; else DMB_ERR_SINGULAR. Unstable equilibria that the
- * search turned far to, or relaxed to, are left where a stable one is found beside. DMB_NOTE_UNSTABLE where the
- * equilibrium at rest is one that the string would leave (report->negative > 0); DMB_NOTE_INCOMPLETE where the
- * stability of an equilibrium at rest is not resolved (report->negative < 0; message states the bound). Errors:
- * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
- * that before the call. O(number of elements) an iteration. */
+/* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, or, where
+ * motion drives move, in a steady motion (`steady`). lib/theory/statics.md has the strategies, from Newton to relaxation, and the
+ * forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy ledger
+ * restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis sum to
+ * 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE: its
+ * stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message says
+ * which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with parts that are not round, RIGID with gravity,
+ * loads, supports, joints or a hole off the axis); the state is then that before the call. O(elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
-/* ---- Buckling ----------------------------------------------------------------------------------------------------
- * The loads that grow with the factor of a buckling analysis or of a path, on top of the loads of the present time;
- * factor 0 is the present state. */
+/* ---- Buckling ----------------------------------------------------------------------------------------------------- */
+/* The loads that grow with the factor of a buckling analysis or of a path, on top of the present ones; factor 0 is the
+ * present. */
 enum {
-    DMB_SCALE_ALL = 0,   /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
+    DMB_SCALE_ALL = 0, /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
     DMB_SCALE_LOADS = 1, /* the same without gravity */
-    DMB_SCALE_PART = 2   /* one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a
-                            motion drive of a string or body moves its component by, which joints, springs or forces
-                            at several parts must not hold (DMB_ERR_UNSUPPORTED) */
+    DMB_SCALE_PART = 2 /* one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of
+        a string or body moves its component by, not held by joints, springs or forces at several parts (DMB_ERR_UNSUPPORTED) */
 };
 typedef struct dmb_buckling_options {
-    uint32_t struct_size;
-    uint32_t count;       /* [-] of critical factors wanted, 1 .. 10000; default 1 */
-    int32_t scale;        /* DMB_SCALE_..., default DMB_SCALE_LOADS */
-    int32_t follow;       /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present
-                             state alone */
-    dmb_id part;          /* load or drive of DMB_SCALE_PART */
-    double factor_max;    /* [unit of the factor] not looked beyond, > 0; default 1e12 */
-    double tolerance;     /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
-    double step;          /* [unit of the factor] difference that the change of the stiffness is taken over; 0
-                             (default): moves the string by a millionth of an element */
-    double slip_axial;    /* [m/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
-    double slip_rotation; /* [rad/s] */
+    uint32_t struct_size, count; /* [-] of critical factors wanted, 1 .. 10000; default 1 */
+    int32_t scale; /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    int32_t follow; /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone */
+    dmb_id part; /* load or drive of DMB_SCALE_PART */
+    double factor_max, tolerance; /* [unit of the factor; -] not looked beyond, > 0; of factors, 1e-15 .. 0.1; default 1e12,
+        1e-10 */
+    double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): by a millionth of an element */
+    double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
 /* Reason for the end of the way along the equilibria. */
 enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
-    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable */
-    DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
-    DMB_BUCKLING_STABLE = 3,       /* none: det K keeps its sign up to `reached` */
-    DMB_BUCKLING_DIP = 4           /* no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less
-                                      than half its largest value before (`dip`): the equilibria bend off into the
-                                      buckled shape, as those of an imperfect string do */
+    DMB_BUCKLING_BIFURCATION = 1, /* an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable */
+    DMB_BUCKLING_LIMIT = 2, /* the factor is at a maximum of the path, or a contact that opens turns it back */
+    DMB_BUCKLING_STABLE = 3, /* none: det K keeps its sign up to `reached` */
+    DMB_BUCKLING_DIP = 4 /* no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its
+        largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do */
 };
-/* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are
- * found at the points of the way, a twentieth of the lowest factor apart at most. */
+/* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are found at
+ * the points of the way, a twentieth of the lowest factor apart at most. */
 enum {
-    DMB_FLUTTER_NOT_JUDGED = 0, /* K is symmetric all the way, which allows none; friction is assumed to slip; the way
-                                   is not followed and no mode grows in the present state; no modes found (message) */
-    DMB_FLUTTER_NONE = 1,       /* none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows */
-    DMB_FLUTTER_FOUND = 2       /* one grows from flutter_factor on */
+    DMB_FLUTTER_NOT_JUDGED = 0, /* K is symmetric all the way, which allows none; friction is assumed to slip; the way is not
+        followed and no mode grows in the present state; no modes found (message) */
+    DMB_FLUTTER_NONE = 1, /* none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows */
+    DMB_FLUTTER_FOUND = 2 /* one grows from flutter_factor on */
 };
 typedef struct dmb_buckling_info {
-    uint32_t struct_size;
-    uint32_t count;     /* [-] factors */
-    uint32_t confirmed; /* [-] of them, the lowest: half the step length along the equilibria ends at the same first
-                           factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one
-                           linearisation to the other; the others are extrapolations. The mesh is not halved: compare
-                           with one of twice the elements */
-    uint32_t linearisations; /* [-] of states on the path, the present one included */
-    uint32_t points;         /* [-] equilibria found on the path */
-    int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
-                          det K = 0; flutter comes before (`flutter`) */
-    int32_t end;       /* DMB_BUCKLING_... */
-    int32_t flutter;   /* DMB_FLUTTER_... */
-    double estimate;   /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
-    double linearised_at;   /* [unit of the factor] state that the shapes and further factors were linearised about */
-    double reached;         /* [unit of the factor] last equilibrium on the path before the end */
-    double flutter_factor;  /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
-    double flutter_root[2]; /* [1/s] its root there, real and imaginary part, 0 without swinging, shape (2) */
-    double dip; /* [-] of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string;
-                   below 0.92 it bends off gradually, and another mesh may give another minimum; 0: another end */
-    double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of
-                                all strings, for comparison with the closed form; NaN without a hole or a factor */
+    uint32_t struct_size, count; /* [-] factors */
+    uint32_t confirmed; /* [-] of them, the lowest: half the step length along the equilibria ends at the same first factor (1e-5
+        of it, of a dip 1e-3), others are the same or have not changed from one linearisation to the other; the others are
+        extrapolations. The mesh is not halved: compare with one of twice the elements */
+    uint32_t linearisations, points; /* [-] of states on the path, the present one included; equilibria found on the path */
+    int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: divergence, det K = 0; see `flutter` */
+    int32_t end, flutter; /* DMB_BUCKLING_..., DMB_FLUTTER_... */
+    double estimate; /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
+    double linearised_at, reached; /* [unit of the factor] state that the shapes and further factors were linearised about; last
+        equilibrium on the path before the end */
+    double flutter_factor; /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
+    double flutter_root[2]; /* [1/s] its root there, real and imaginary part, 0 without swinging */
+    double dip; /* [-] of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string; below 0.92
+        it bends off gradually, and another mesh may give another minimum; 0: another end */
+    double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of all
+        strings, for comparison with the closed form; NaN without a hole or a factor */
 } dmb_buckling_info;
 DMB_SIZED_STRUCT(dmb_buckling_info)
-/* Critical factors and shapes; destroyed by the caller, one thread at a time. */
-typedef struct dmb_buckling dmb_buckling;
-/* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK
- * is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e
- * around the axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the
- * state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots
- * (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real
- * eigenvalues by Krylov subspaces: loads at which it diverges. It may flutter before, by a mode that grows while det K
- * keeps its sign; so damped modes are computed along the path (`flutter`). A complex pair of eigenvalues of K that
- * becomes real and negative is no stability limit: its load depends on the weights of the coordinates. A linearisation
- * is an extrapolation, good where sections turn and contacts shift little. So the equilibria are followed
- * (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the
- * lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors
- * are linearised just before; or where the lowest eigenvalue of a symmetric stiffness has a deep minimum
- * (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half the
- * length, up to two times, until two runs agree. dmb_buckling_get_info reports it. The sim is not changed.
- * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be found (beyond a limit point none can;
- * message says how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors
- * are not confirmed. Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also
- * where there is no such factor, up to a factor_max below 1e12 or to where the equilibria could be followed.
- * DMB_NOTE_INCOMPLETE where that could not be assessed though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the
- * state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free),
- * _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a
- * joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY,
- * _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations of the path, each
- * O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator.
- */
+typedef struct dmb_buckling dmb_buckling; /* critical factors and shapes */
+/* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is
+ * singular, K the tangent stiffness with its contacts as they are, dK its change along the response of the state to the pattern
+ * of loads (eq:buckling.pencil); with joints both are those of the independent coordinates. A linearisation is an extrapolation,
+ * so the equilibria are followed to the factor, linearised again, and so on, until an eigenvalue of their stiffness passes 0 or
+ * has a deep minimum (DMB_BUCKLING_DIP: one factor), and once more in steps of half the length (lib/theory/statics.md). Notes,
+ * the first that applies: DMB_NOTE_FLUTTER: a damped mode grows before the lowest factor, or up to a factor_max below 1e12;
+ * DMB_NOTE_INCOMPLETE: that could not be assessed though K is unsymmetric; DMB_NOTE_EXTRAPOLATED: some of the factors are not
+ * confirmed; DMB_NOTE_STOPPED: fewer than `count` lie below factor_max or can be found. Errors: DMB_ERR_ORDER (the state is no
+ * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the
+ * equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that slides or turns
+ * by its drives: take DMB_STEADY_AT_REST, and the slip here, for it). Some 40 counts a factor and 10 to 100 iterations of the
+ * path, each O(elements); memory: the sim's twice more and 3 matrices. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
-/* Gives the memory back and sets *buckling to NULL. NULL-safe. */
 DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
-/* Factors found; 0 for NULL. */
-DMB_API uint32_t dmb_buckling_count(const dmb_buckling *buckling);
-/* [unit of the factor] The critical factor number `mode`, rising from 0 on. DMB_ERR_NULL, _HANDLE, _VALUE. */
+DMB_API uint32_t dmb_buckling_count(const dmb_buckling *buckling); /* [-] factors found; 0 for NULL */
+/* [unit of the factor] The critical factor number `mode`, rising from 0 on. */
 DMB_API int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double *factor);
-/* [m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a
- * node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion. */
+/* [m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1
+ * m in its own axes; shape (6). */
 DMB_API int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6]);
 
 /* ---- Paths of equilibrium ----------------------------------------------------------------------------------------
  * Follows the equilibrium that a growing factor (DMB_SCALE_...) leads along, past limit points and onto branches. */
 enum {
     DMB_PATH_REGULAR = 0,
-    DMB_PATH_LIMIT = 1,       /* the factor is at a maximum or minimum of the path */
+    DMB_PATH_LIMIT = 1, /* the factor is at a maximum or minimum of the path */
     DMB_PATH_BIFURCATION = 2, /* another path crosses: the stiffness is singular and the factor continues */
-    DMB_PATH_BRANCH = 3       /* first point of the path that crossed */
+    DMB_PATH_BRANCH = 3 /* first point of the path that crossed */
 };
 typedef struct dmb_path_point {
-    uint32_t struct_size;
-    uint32_t number;     /* [-] 0: the state the path begins in */
-    int32_t kind;        /* DMB_PATH_... */
-    int32_t negative;    /* [-] as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable */
+    uint32_t struct_size, number; /* [-] 0: the state the path begins in */
+    int32_t kind; /* DMB_PATH_... */
+    int32_t negative; /* [-] as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable */
     uint32_t iterations; /* [-] of this point */
-    int32_t stiffness;   /* DMB_STIFFNESS_... */
-    double factor;       /* [unit of the factor] */
-    double rate;         /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
-    double arc;          /* [m] length of the path so far, root of the mean square of the motion of the nodes */
+    int32_t stiffness; /* DMB_STIFFNESS_... */
+    double factor, rate; /* [unit of the factor; unit of the factor/m] its rate along the path, < 0 where it falls */
+    double arc; /* [m] length of the path so far, root of the mean square of the motion of the nodes */
     double displacement; /* [m] of the watched place and component since time 0; 0: none is watched */
 } dmb_path_point;
 DMB_SIZED_STRUCT(dmb_path_point)
-/* Called at each point with a sim that is there at rest: every query works, snapshots may be taken and, after the
- * call, restored into the sim the path began with. Returns 0, or nonzero to stop. */
+/* Called at each point with a sim that is there at rest: every query works, snapshots may be taken and, after the call, restored
+ * into the sim the path began with. Returns 0, or nonzero to stop. */
 typedef int32_t (*dmb_path_fn)(void *context, const dmb_sim *at, const dmb_path_point *point);
 typedef struct dmb_path_options {
-    uint32_t struct_size;
-    uint32_t max_points;     /* [-] 1 .. 1000000; default 200 */
+    uint32_t struct_size, max_points; /* [-] 1 .. 1000000; default 200 */
     uint32_t max_iterations; /* [-] of one point, 2 .. 1000; default 15 */
-    int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
-    dmb_id part;             /* load or drive of DMB_SCALE_PART */
-    dmb_place place;         /* place that is watched; part {0, 0} (default): none */
-    int32_t component;       /* of its displacement in the world, DMB_X (default) .. DMB_Z */
-    int32_t branch;          /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
-    double factor_end;       /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
-    double displacement_end; /* [m] ends there; default 1e30: nowhere */
-    double first_step;       /* [unit of the factor] > 0; 0 (default): a tenth of factor_end */
-    double step_max;         /* [m] longest arc from point to point, > 0; default 1e30 */
-    double branch_size;      /* [m] arc of the first step on a branch; 0 (default): that of the step before */
-    double tolerance;        /* [-] of the residual, as in dmb_static_options; default 1e-10 */
-    double slip_axial;       /* [m/s] friction as in dmb_static_options */
-    double slip_rotation;    /* [rad/s] */
-    dmb_path_fn callback;    /* may be NULL */
+    int32_t scale; /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    dmb_id part; /* load or drive of DMB_SCALE_PART */
+    dmb_place place; /* place that is watched; part {0, 0} (default): none */
+    int32_t component; /* of its displacement in the world, DMB_X (default) .. DMB_Z */
+    int32_t branch; /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
+    double factor_end; /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
+    double displacement_end; /* [m] ends there; default DMB_UNLIMITED: nowhere */
+    double first_step, step_max; /* [unit of the factor; m] > 0, 0: factor_end/10; longest arc, > 0; default 0, DMB_UNLIMITED */
+    double branch_size; /* [m] arc of the first step on a branch; 0 (default): that of the step before */
+    double tolerance; /* [-] of the residual, as in dmb_static_options; default 1e-10 */
+    double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options */
+    dmb_path_fn callback; /* may be NULL */
     void *callback_context;
 } dmb_path_options;
 DMB_SIZED_STRUCT(dmb_path_options)
 typedef struct dmb_path_report {
-    uint32_t struct_size;
-    uint32_t points;          /* [-] beyond the start, limit points and bifurcations included */
-    uint32_t limits;          /* [-] limit points passed */
-    uint32_t bifurcations;    /* [-] passed or left at */
-    uint32_t iterations;      /* [-] in all */
-    uint32_t cuts;            /* [-] steps that were halved */
-    double factor;            /* [unit of the factor] at the end */
-    double displacement;      /* [m] at the end */
-    double first_limit;       /* [unit of the factor] at the first limit point; NaN: none */
-    double first_bifurcation; /* [unit of the factor] at the first bifurcation; NaN: none */
+    uint32_t struct_size, points; /* [-] beyond the start, limit points and bifurcations included */
+    uint32_t limits, bifurcations; /* [-] limit points passed; bifurcations passed or left at */
+    uint32_t iterations, cuts; /* [-] in all; steps that were halved */
+    double factor, displacement; /* [unit of the factor; m] at the end */
+    double first_limit, first_bifurcation; /* [unit of the factor] at the first limit point, the first bifurcation; NaN: none */
 } dmb_path_report;
 DMB_SIZED_STRUCT(dmb_path_report)
-/* Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane
- * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
- * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric, a
- * step is a twentieth of factor_end at most: an eigenvalue that leaves and one that comes back closer together may be
- * passed by. Two that a complex pair becomes change `negative` and are no bifurcation: det K keeps its sign. The sim is
- * not changed. options and report may be NULL; where the path was lost the report states how far it came.
- * DMB_NOTE_STOPPED after max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
- * equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message
- * says where the path was lost), _ROTATION (above 2.5 rad in an element; message says where), _UNSUPPORTED (as of
- * buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more. */
+/* Follows the path from the present static state on by arc length (eq:buckling.arc). Limit points, bifurcations and the ends are
+ * located to 1e-8 of the step by regula falsi. Where K is unsymmetric, a step is a twentieth of factor_end at most: an eigenvalue
+ * that leaves and one that comes back closer together may be passed by. Two that a complex pair becomes change `negative` and are
+ * no bifurcation. The report of a lost path states its end. DMB_NOTE_STOPPED after max_points or by the callback. Errors:
+ * DMB_ERR_ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
+ * _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element; message says where),
+ * _UNSUPPORTED (as of buckling). O(elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
  * The parts of a scene, its degrees of freedom, and warnings. */
 typedef struct dmb_check_report {
-    uint32_t struct_size;
-    uint32_t rigid_parts;       /* [-] bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints */
-    uint32_t flexible_parts;    /* [-] flexible and axial-torsional pipes */
-    uint32_t elements;          /* [-] of those */
+    uint32_t struct_size, rigid_parts; /* [-] bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints */
+    uint32_t flexible_parts, elements; /* [-] flexible and axial-torsional pipes; elements of those */
     uint32_t structural_joints; /* [-] fixed joints inside strings, which cost no unknowns */
-    uint32_t joints[32];        /* [-] described joints that are not open, by DMB_JOINT_ kind; 0 beyond the kinds */
-    uint32_t open_joints;       /* [-] described joints that are open now */
-    uint32_t locked_joints;     /* [-] of `joints` those that are locked now */
-    uint32_t couplings;         /* [-] */
-    uint32_t constraints;       /* [-] the caller's */
-    uint32_t motion_drives;     /* [-] DMB_DRIVE_MOTION */
-    uint32_t other_drives;      /* [-] DMB_DRIVE_LOAD and _CONTROL */
-    uint32_t loads;             /* [-] */
-    uint32_t coordinates;       /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
-    uint32_t held;              /* [-] of them held by supports: start_free, end_free, free_mask */
-    uint32_t prescribed;        /* [-] of them moved by motion drives of strings and bodies */
-    uint32_t constraint_rows;   /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
-    uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */
-    uint32_t degrees_of_freedom; /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
-    uint32_t redundant;          /* [-] equations that others imply: rows - rank */
-    uint32_t tridiagonal_nodes;  /* [-] nodes whose chains the block-tridiagonal solver takes */
-    uint32_t sparse_nodes;       /* [-] nodes of chains that equations connect: the sparse solver's */
-    uint32_t blocks;             /* [-] of the sparse solver: clusters and the other nodes of those chains */
-    uint32_t fill;               /* [-] couplings of blocks that its elimination adds */
-    uint32_t clusters;           /* [-] groups of nodes that equations connect directly */
-    uint32_t largest_cluster;    /* [-] coordinates of the largest */
-    uint32_t warnings;           /* [-] lines of warning in the text */
+    uint32_t joints[32]; /* [-] described joints that are not open, by DMB_JOINT_ kind; 0 beyond the kinds */
+    uint32_t open_joints, locked_joints; /* [-] described joints that are open now; of `joints` those that are locked now */
+    uint32_t couplings, constraints; /* [-] couplings; constraints of the caller */
+    uint32_t motion_drives, other_drives, loads; /* [-] DMB_DRIVE_MOTION; DMB_DRIVE_LOAD and _CONTROL; loads */
+    uint32_t coordinates; /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
+    uint32_t held, prescribed; /* [-] of them held by supports; moved by motion drives of strings and bodies */
+    uint32_t constraint_rows, rank; /* [-] equations that act now: of joints, couplings, constraints, joint motion drives; rank of
+        their matrix in the coordinates that are neither held nor prescribed */
+    uint32_t degrees_of_freedom, redundant; /* [-] coordinates - held - prescribed - rank; rows - rank, implied by others */
+    uint32_t tridiagonal_nodes, sparse_nodes; /* [-] nodes whose chains the block-tridiagonal solver takes; nodes of chains that
+        equations connect: the sparse solver's */
+    uint32_t blocks, fill; /* [-] of the sparse solver: clusters and the other nodes of those chains; couplings of blocks that its
+        elimination adds */
+    uint32_t clusters, largest_cluster; /* [-] groups of nodes that equations connect directly; coordinates of the largest */
+    uint32_t warnings; /* [-] lines of warning in the text */
     int64_t gruebler; /* [-] coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant */
     double largest_violation; /* [m, -] largest violation of an equation of position */
-    double condition;         /* [-] smallest over largest singular value of a cluster's equations, redundant ones
-                                 apart, at unit length, rotations at the mean element length; of the worst cluster;
-                                 an estimate above 300 equations; 1 without any */
+    double condition; /* [-] smallest over largest singular value of a cluster's equations, redundant ones apart, at unit length,
+        rotations at the mean element length; of the worst cluster; an estimate above 300 equations; 1 without any */
 } dmb_check_report;
 DMB_SIZED_STRUCT(dmb_check_report)
-
-/* Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that
- * of the partition the sim steps with (a warning if they differ). Changes nothing; calls the callbacks of constraints.
- * Memory for the time of the call comes from the allocator of the sim's options. Cost: elements, and the cube of the
- * coordinates of each cluster. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
+/* Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that of the
+ * partition the sim steps with (a warning if they differ). Calls the callbacks of constraints. Cost: elements, and the cube of
+ * the coordinates of each cluster. Errors: DMB_ERR_CALLBACK, _SINGULAR. */
 DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report);
-/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by
- * name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated;
- * *needed (may be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL
- * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
+/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by name
+ * (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be
+ * NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL if the text is cut. Errors
+ * as dmb_analysis_check. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
-
 /* Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of
- * dmb_pipe_def.elements: bending stress q s^2/12 (r/EI) of an element between two points of contact, which the wall of
- * a real hole supports all along, over the yield strength (yield_strength, else a strain of 0.003). q [N/m]: weight
- * across the axis of the hole and tension by the weight below times the curvature of the hole; s [m]: spacing of the
- * points of contact. The error falls with the square of the element's length. error [-], shape (capacity): by pipe from
- * the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by
- * dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; changes nothing; any number of threads.
- * Errors: DMB_ERR_NULL, _HANDLE, _ORDER (not compiled), _ID (no string of this model), _VALUE (capacity). O(elements).
- */
+ * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress between two points of contact over the yield strength
+ * (yield_strength, else a strain of 0.003). error [-], shape (capacity): by pipe from the rig end; 0 for rigid and
+ * axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by dmb_analysis_check. capacity >= pipes
+ * of the string. Of a compiled model; any number of threads. O(elements). */
 DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity);
 
-/* ---- Linear analyses ---------------------------------------------------------------------------------------------
- * The wall in small motion about a state (analyse.h, analyse.h). */
+/* ---- Linear analyses ---------------------------------------------------------------------------------------------- */
+/* The wall in small motion about a state. */
 enum {
     DMB_CONTACT_AS_IS = 0, /* contact rings that touch the wall press on it, others do not */
-    DMB_CONTACT_OPEN = 1,  /* there is no wall; its forces in the state stay as dead loads */
+    DMB_CONTACT_OPEN = 1, /* there is no wall; its forces in the state stay as dead loads */
     DMB_CONTACT_CLOSED = 2 /* contact rings up to `contact_gap` from the wall are held across it too */
 };
 
 /* ---- Modes ------------------------------------------------------------------------------------------------------ */
-/* Free vibration M d'' + C d' + K d = 0, d small body-frame displacements, with everything that acts in the state:
- * preload, wall, friction, joints, drives, and the gyroscopic terms of a steady rotation. */
+/* Free vibration M d'' + C d' + K d = 0, d small body-frame displacements, with everything that acts in the state: preload, wall,
+ * friction, joints, drives, and the gyroscopic terms of a steady rotation. */
 typedef struct dmb_modes dmb_modes;
 
 enum { DMB_MODES_UNDAMPED = 0, /* M d'' + K d = 0 */ DMB_MODES_DAMPED = 1 /* with C: damping and gyroscopic terms */ };
 enum { DMB_MODES_LOWEST = 0, DMB_MODES_ALL = 1, DMB_MODES_BAND = 2 };
-/* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin
- * and |w - spin|), or axes that do not take part in turning about the part's own x axis: frequencies as they are seen
- * from outside. The latter is for round parts: eccentric ones are out of balance. */
+/* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin and |w -
+ * spin|), or axes that do not take part in turning about the part's own x axis: frequencies as they are seen from outside. The
+ * latter is for round parts: eccentric ones are out of balance. */
 enum { DMB_MODES_AXES_TURNING = 0, DMB_MODES_AXES_AT_REST = 1 };
 typedef struct dmb_modes_options {
     uint32_t struct_size;
-    int32_t kind;       /* DMB_MODES_UNDAMPED (default), _DAMPED */
-    int32_t select;     /* DMB_MODES_LOWEST (default), _ALL, _BAND */
-    uint32_t count;     /* [-] of LOWEST, 1 .. number of coordinates, twice that if DAMPED, where every real root is a
-                           mode (fewer come back where there are fewer); default 10 */
-    double band[2];     /* [Hz] of BAND, 0 <= band[0] < band[1]; default 0 and 100, shape (2) */
-    int32_t contact;    /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
-    int32_t friction;   /* 1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load */
+    int32_t kind, select; /* DMB_MODES_UNDAMPED (default), _DAMPED; DMB_MODES_LOWEST (default), _ALL, _BAND */
+    uint32_t count; /* [-] of LOWEST, 1 .. number of coordinates, twice that if DAMPED, where every real root is a mode (fewer
+        come back where there are fewer); default 10 */
+    double band[2]; /* [Hz] of BAND, 0 <= band[0] < band[1]; default 0 and 100 */
+    int32_t contact; /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
+    int32_t friction; /* 1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load */
     double contact_gap; /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
-    double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0; above it the state is
-                                  refused; default 1e-6 */
-    int32_t axes;                 /* DMB_MODES_AXES_TURNING (default), _AT_REST */
-    int32_t reserved;
-    double spin; /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as
-                    they do. A static state with slip_rotation of this speed is in balance with friction
-                    but for the tilt of the pipes in the hole, some 1e-5 */
+    double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0, of a state; default 1e-6 */
+    int32_t axes, reserved; /* DMB_MODES_AXES_TURNING (default), _AT_REST */
+    double spin; /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static
+        state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5 */
 } dmb_modes_options;
 DMB_SIZED_STRUCT(dmb_modes_options)
-
 typedef struct dmb_modes_info {
-    uint32_t struct_size;
-    uint32_t count;       /* [-] modes found, by rising frequency */
-    uint32_t rigid;       /* [-] of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor
-                             supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues;
-                             each is reported once, with s = 0 */
+    uint32_t struct_size, count; /* [-] modes found, by rising frequency */
+    uint32_t rigid; /* [-] of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor supports nor any
+        force hold, K d = 0. They are found as such, not as small eigenvalues; each is reported once, with s = 0 */
     uint32_t coordinates; /* [-] independent coordinates of the linear system */
-    int32_t dense;        /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
-    uint32_t solves;      /* [-] with those factors */
-    double residual_of_state; /* [-] relative residual of the state without its body-frame accelerations */
-    double asymmetry;         /* [-] of K; above 1e-9 it is treated as unsymmetric (friction, follower loads) */
-    double residual;          /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
-    uint32_t double_roots; /* [-] roots that were reported as the mean of two or more with one shape (critical damping,
-                              the edge of flutter, straight motion seen in axes that spin): rounding parts those by
-                              its root, and a residual does not show it */
-    uint32_t reserved;
+    int32_t dense; /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
+    uint32_t solves; /* [-] with those factors */
+    double residual_of_state, asymmetry; /* [-] relative residual of the state without its body-frame accelerations; asymmetry of
+        K, above 1e-9 treated as unsymmetric (friction, follower loads) */
+    double residual; /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
+    uint32_t double_roots, reserved; /* [-] roots that were reported as the mean of two or more with one shape (critical damping,
+        the edge of flutter, straight motion seen in axes that spin): eq:modes.double */
 } dmb_modes_info;
 DMB_SIZED_STRUCT(dmb_modes_info)
-
 typedef struct dmb_mode {
     uint32_t struct_size;
-    int32_t rigid;        /* 1: a rigid-body mode: nothing holds or strains it */
-    double frequency;     /* [Hz] |s|/(2 pi) */
-    double damping;       /* [-] -Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one */
-    double eigenvalue[2]; /* [1/s] s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and
-                             one that decays. Without damping, divergence (s, -s) is one mode, s > 0 */
-    double kinetic;       /* [J] |s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg) */
-    double strain;        /* [J] of elements, elastic part */
-    double share[3];      /* [-] of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in
-                             their own axes; of a rigid mode at unit |s|; sum 1, shape (3) */
-    double participation[3];  /* [kg^0.5] d^T M e for a base that moves along world x, y, z, shape (3) */
-    double effective_mass[3]; /* [kg] their squares: sum over all modes = mass that is free to move, shape (3) */
-    double whirl;           /* [-] part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in
-                               circles from z to y (backward), in `axes`: 1 .. -1; 0 of real shapes */
-    double strain_share[3]; /* [-] of the strain energy that is stretch, twist, bending with shear; sum 1, or 0 where
-                               nothing is strained, shape (3) */
+    int32_t rigid; /* 1: a rigid-body mode: nothing holds or strains it */
+    double frequency, damping; /* [Hz; -] |s|/(2 pi); -Re s/|s|, 1 of an overdamped root, one mode, 0 of a rigid one */
+    double eigenvalue[2]; /* [1/s] s, real and imaginary part >= 0. Flutter is two modes, one that grows and one that decays.
+        Without damping, divergence (s, -s) is one mode, s > 0 */
+    double kinetic, strain; /* [J] |s|^2 d^H M d/2 of the shape with d^H M d = 1 kg m2 (or kg); of elements, elastic part */
+    double share[3]; /* [-] of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in their own axes;
+        of a rigid mode at unit |s|; sum 1 */
+    double participation[3], effective_mass[3]; /* [kg^0.5; kg] d^T M e for a base that moves along world x, y, z; their squares:
+        sum over all modes = mass that is free to move */
+    double whirl; /* [-] part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in circles from z to y
+        (backward), in `axes`: 1 .. -1; 0 of real shapes */
+    double strain_share[3]; /* [-] of the strain energy that is stretch, twist, bending with shear; sum 1 or 0 */
 } dmb_mode;
 DMB_SIZED_STRUCT(dmb_mode)
-
 typedef struct dmb_mode_shape {
     uint32_t struct_size;
     int32_t frame; /* in: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY, axes of re and im */
-    double re[6];  /* [m, rad] displacement and rotation of the place, d = Re(shape e^(s t)), shape (6) */
-    double im[6];  /* [m, rad] 0 of undamped modes, shape (6) */
+    double re[6], im[6]; /* [m, rad] displacement and rotation of a place, d = Re(shape e^(s t)); im 0 if undamped */
 } dmb_mode_shape;
 DMB_SIZED_STRUCT(dmb_mode_shape)
-
-/* Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily. The state is
- * not changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's
- * allocator, until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the
- * M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or
- * shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is
- * divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the
- * modes; damped ones in the same way where their roots lie along the imaginary axis (K symmetric, no joints, less than
- * a quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are
- * refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot
- * be distinguished from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). Of the
- * LOWEST modes those before the first such one are returned, and those before a crowd of roots that do not converge
- * (damped motions of more than 400 coordinates, near 1/(2 pi damping_time)): DMB_NOTE_INCOMPLETE. Joints whose
- * equations change in `axes` while the state moves on (a rotor on a carrier in axes that turn; rolling), and strings
- * that turn on the wall in axes that turn with them, are refused (_UNSUPPORTED): coefficients are not constant. So are
- * modes whose coefficients change by more than 1e-4 while parts turn, tested with the state rotated by a radian: in
- * rotating axes anisotropic supports (springs, the sag of a shaft held along), in axes at rest parts that are not
- * round. *modes is NULL on error: DMB_ERR_VALUE (option; more modes than
- * coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR,
- * _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE, _UNSUPPORTED. */
+/* Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily; the sim need not outlive
+ * the result. LOWEST: smallest |s|. Few modes cost O(elements), ALL and many the cube of the coordinates (LAPACK), a BAND, in
+ * which every mode is found, in proportion to its modes; of damped ones whose roots do not lie along the imaginary axis at most
+ * 256 below band[1] (eq:modes.count, eq:modes.strip). DMB_NOTE_INCOMPLETE: of the LOWEST those before the first that does not
+ * converge (lib/theory/modes.md). Errors: DMB_ERR_VALUE (option; more modes than coordinates; a band without modes; a state out
+ * of balance: by how much and where), _NO_CONVERGENCE (a mode that does not satisfy its equations to rounding, or cannot be
+ * distinguished from a rigid-body motion: residual and bound), _UNSUPPORTED (coefficients that are not constant in `axes` while
+ * the state moves on: eq:modes.turned), _TOO_LARGE, _SINGULAR. */
 DMB_API int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_modes **modes);
-/* Gives the memory back and sets *modes to NULL. NULL-safe. */
 DMB_API void dmb_modes_destroy(dmb_modes **modes);
 DMB_API int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info);
-/* Mode number index. O(number of elements). Errors of this and the following functions: DMB_ERR_NULL, _HANDLE,
- * _STRUCT_SIZE, _ID, _VALUE (index, place, frame), _NOT_FINITE. */
+/* Mode number index. O(elements). */
 DMB_API int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode);
 /* Shape at a place, between nodes by the element's own shape functions. O(1). */
 DMB_API int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place, dmb_mode_shape *shape);
-/* [J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of the parts fixed to its
- * two ends, in a whole string (pipe = DMB_NONE), or in a body or bit (pipe 0). O(elements of it). */
+/* [J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of the parts fixed to its two ends,
+ * in a whole string (pipe = DMB_NONE), or in a body or bit (pipe 0). O(elements of it). */
 DMB_API int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint32_t pipe, double *kinetic,
                                double *strain);
-/* A frame of its animation for ParaView: the strings displaced by scale Re(shape e^(i phase)), as dmb_write_vtk_strings
- * writes them, with fields displacement and rotation. A numbered series of frames plays. DMB_ERR_IO on failure. */
-DMB_API int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase,
-                                   uint32_t per_element, const char *path);
+/* A frame of its animation for ParaView: the strings displaced by scale Re(shape e^(i phase)), as dmb_write_vtk_strings writes
+ * them, with fields displacement and rotation. A numbered series of frames plays. Errors: DMB_ERR_IO. */
+DMB_API int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
+                                   const char *path);
 
 /* ---- Excitation --------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_EXCITATION_DRIVE = 0,     /* time function of the drive place.part [its unit]: speed of MOTION, force of LOAD,
-                                target speed of CONTROL */
-    DMB_EXCITATION_LOAD = 1,      /* [-] factor of the load place.part */
-    DMB_EXCITATION_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
-    DMB_EXCITATION_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
-    DMB_EXCITATION_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
-                                DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
-    DMB_EXCITATION_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are
-                                held across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
-                                factor, turning with the frequency about the axes of their pipes, from y to z, as they
-                                lie in the state at t = 0 */
-    DMB_EXCITATION_FRICTION = 6,     /* [-] coefficient: every contact ring on the wall is rubbed by it times its normal
-                                   force in the state, along the hole (component DMB_X) or around it (DMB_RX) */
-    DMB_EXCITATION_SETTING = 7 /* the input place.part of scene.h [its unit]: a set point, load factor or bit load;
-                             limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the
-                             scene: DMB_ERR_UNSUPPORTED; one that still changes is DMB_ERR_VALUE */
+    DMB_EXCITATION_DRIVE = 0, /* time function of the drive place.part [its unit]: speed of MOTION, CONTROL, force of LOAD */
+    DMB_EXCITATION_LOAD = 1, /* [-] factor of the load place.part */
+    DMB_EXCITATION_BIT_LOAD = 2, /* [N] bottom-hole load of the bit place.part */
+    DMB_EXCITATION_FORCE = 3, /* [N, N m] `component` of a force or moment at `place`, in `frame` */
+    DMB_EXCITATION_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component DMB_RX:
+        turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
+    DMB_EXCITATION_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held
+        across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about
+        the axes of their pipes, from y to z, as they lie in the state at t = 0 */
+    DMB_EXCITATION_FRICTION = 6, /* [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the
+        state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_EXCITATION_SETTING = 7 /* the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its
+        rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: DMB_ERR_UNSUPPORTED */
 };
 typedef struct dmb_excitation {
     uint32_t struct_size;
-    int32_t kind;      /* DMB_EXCITATION_..., default DMB_EXCITATION_FORCE */
-    dmb_place place;   /* as the kind says */
-    int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
-    int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: axes of the place in the state */
-    double amplitude;  /* [unit of the kind] in the combined response; default 1 */
-    double phase;      /* [rad] in the combined response; default 0 */
+    int32_t kind; /* DMB_EXCITATION_..., default DMB_EXCITATION_FORCE */
+    dmb_place place; /* as the kind says */
+    int32_t component, frame; /* DMB_X .. DMB_RZ, default DMB_X; DMB_FRAME_WORLD (default), _BODY: axes of the place */
+    double amplitude, phase; /* [unit of the kind; rad] in the combined response; default 1, 0 */
 } dmb_excitation;
 DMB_SIZED_STRUCT(dmb_excitation)
 
-/* ---- Frequency response ------------------------------------------------------------------------------------------ */
-/* Axes of small motions, of the frames of places, and so of frequencies: those of the parts, which turn with them, or
- * axes that do not take part in turning about the part's own x axis, as for modes: frequencies as they are
- * seen from outside. The latter is for round parts; there an unbalance of a string that turns at W acts at W. */
+/* ---- Frequency response ------------------------------------------------------------------------------------------- */
+/* Axes of small motions, of the frames of places, and so of frequencies, as DMB_MODES_AXES_...; at rest an unbalance that turns
+ * at W acts at W. */
 enum { DMB_RESPONSE_AXES_TURNING = 0, DMB_RESPONSE_AXES_AT_REST = 1 };
 typedef struct dmb_response_options {
-    uint32_t struct_size;
-    uint32_t points;           /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
-    double frequency_low;      /* [Hz] >= 0; > 0 of a logarithmic grid; default 1 */
-    double frequency_high;     /* [Hz] >= frequency_low; default 100 */
+    uint32_t struct_size, points; /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
+    double frequency_low, frequency_high; /* [Hz] >= 0, > 0 of a logarithmic grid, the second >= the first; default 1 and 100 */
     const double *frequencies; /* [Hz] ascending, shape (points): these instead of a grid; NULL (default): the grid */
-    int32_t logarithmic;       /* 1: equal ratios between frequencies; 0 (default): equal differences */
-    uint32_t refinement;       /* [-] times the intervals on both sides of each peak of a transfer function are halved,
-                                  0 .. 40; default 0. A peak that falls between two points unseen is not found */
+    int32_t logarithmic; /* 1: equal ratios between frequencies; 0 (default): equal differences */
+    uint32_t refinement; /* [-] times the intervals on both sides of each peak of a transfer function are halved, 0 .. 40; default
+        0. A peak that falls between two points unseen is not found */
     double structural_damping; /* [-] eta: stiffness (1 + i eta) K, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it; default 1e-6 */
-    int32_t contact;              /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
-    int32_t friction;             /* 1 (default): the slope of the friction law damps or drives; 0: left out */
-    double contact_gap;           /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
-    int32_t axes;                 /* DMB_RESPONSE_AXES_TURNING (default), _AT_REST */
-    int32_t reserved;
+    int32_t contact; /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
+    int32_t friction; /* 1 (default): the slope of the friction law damps or drives; 0: left out */
+    double contact_gap; /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
+    int32_t axes, reserved; /* DMB_RESPONSE_AXES_TURNING (default), _AT_REST */
     double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_modes_options; 0 (default): as they do */
 } dmb_response_options;
 DMB_SIZED_STRUCT(dmb_response_options)
-
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
-/* Outputs of a linear analysis are small changes about its state, of every DMB_OUTPUT_... that is linear in the motion;
- * magnitudes, sums over the string, counts, energies and works are refused (DMB_ERR_UNSUPPORTED, the message names the
- * output). DMB_OUTPUT_VIBRATION .. are motions of a place in the axes of the analysis. */
-/* Transfer functions from every excitation to every output about the accepted state of a sim, which must be an
- * equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency. Of a state that
- * spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the
- * state, and section forces are given in axes that do not spin. Structural damping there is that of parts that do not
- * turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or
- * a string that turns on the wall, which goes round in axes that turn; results hold along and about the axes of
- * straight parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
- * (excitation_count), (output_count), 1 .. 1024 each, every excitation of the size that the first says. options may be
- * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
- * band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part
- * that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with
- * it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the
- * sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints
- * + excitations)); of joints that share bodies the cube of their coordinates. One thread; several responses of one sim
- * may not be computed at a time. */
-DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
-                                      const dmb_excitation *excitations, uint32_t excitation_count,
-                                      const dmb_output *outputs, uint32_t output_count, dmb_response **response);
-/* Gives the memory back and sets *response to NULL. NULL-safe. */
+/* Transfer functions from every excitation to every output about the accepted state of a sim, which must be an equilibrium, at
+ * rest or spinning steadily (eq:response.direct). Outputs are small changes about it, of every DMB_OUTPUT_... that is linear in
+ * the motion; DMB_OUTPUT_VIBRATION .. are motions of a place in the axes of the analysis. Of a state that spins, frames of
+ * `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the state, and section forces
+ * are given in axes that do not spin. Structural damping there is that of parts that do not turn. excitations, outputs: shapes
+ * (excitation_count), (output_count), 1 .. 1024 each, every excitation of the size that the first says. DMB_NOTE_INCOMPLETE:
+ * coefficients that change while parts turn, as of modes; results hold along and about the axes of straight parts, not across.
+ * Errors: DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where), _SINGULAR (frequency and part
+ * that nothing holds there; a motion drive at frequency 0), _UNSUPPORTED (axes at rest with a load across a part that turns with
+ * it; an output that is a magnitude, sum over the string, count, energy or work: the message names it). Cost: O(points (elements
+ * + joints + excitations)); of joints that share bodies the cube of their coordinates. The sim need not outlive the response;
+ * responses of one sim may not be computed at a time. */
+DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_excitation *excitations,
+                                      uint32_t excitation_count, const dmb_output *outputs, uint32_t output_count,
+                                      dmb_response **response);
 DMB_API void dmb_response_destroy(dmb_response **response);
-/* Numbers of frequencies (those of refinement included), excitations and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
+/* Numbers of frequencies (those of refinement included), excitations and outputs, shape (3). */
 DMB_API int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3]);
-/* [Hz] ascending, shape (points). DMB_ERR_NULL, _HANDLE. */
+/* [Hz] ascending, shape (points). */
 DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *frequencies);
-/* Output per unit of the excitation at each frequency, real and imaginary part, shape (points, 2). excitation
- * DMB_COMBINED: the output for all excitations with their amplitudes and phases. DMB_ERR_NULL, _HANDLE, _VALUE. */
+/* Output per unit of the excitation at each frequency, real and imaginary part, shape (points, 2). excitation DMB_COMBINED: the
+ * output for all excitations with their amplitudes and phases. */
 #define DMB_COMBINED UINT32_MAX
-DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t excitation, uint32_t output,
-                                      double *values);
-/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; a line of
- * heads, with part names of `sim` (NULL: numbers of parts), '.' as decimal mark. Errors: DMB_ERR_NULL, _HANDLE, _IO.
- */
+DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t excitation, uint32_t output, double *values);
+/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; a line of heads, with
+ * part names of `sim` (NULL: numbers of parts), '.' as decimal mark. Errors: DMB_ERR_IO. */
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const dmb_sim *sim, const char *path);
 
-/* ---- Stepped sine ------------------------------------------------------------------------------------------------
- * Response in time to the scene's own time functions at one frequency, where the linear one does not hold:
- * contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a
- * HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next.
- * Calls on different sims share nothing and may run in parallel with the same bits. */
+/* ---- Stepped sine -------------------------------------------------------------------------------------------------
+ * Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open,
+ * friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's
+ * speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run
+ * in parallel with the same bits. */
 typedef struct dmb_stepped_sine_options {
-    uint32_t struct_size;
-    uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
-    uint32_t periods;          /* [-] of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited;
-                                  default 4 */
-    uint32_t windows;          /* [-] at most, 3 .. 1e6; default 500 */
-    uint32_t harmonics;        /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
-    uint32_t reserved;
-    double tolerance; /* [-] settled: the remaining change, extrapolated from the last windows, is below this part
-                         of the largest harmonic of each output; default 1e-3 */
-    double floor;     /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
+    uint32_t struct_size, steps_per_period; /* [-] 16 .. 1e6; default 100: frequency error about (2 pi/this)^2/12 */
+    uint32_t periods, windows; /* [-] of a window, 1 .. 1e4, more than 1 where multiples of the period are awaited; windows at
+        most, 3 .. 1e6; default 4, 500 */
+    uint32_t harmonics, reserved; /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
+    double tolerance; /* [-] settled: the remaining change, extrapolated from the last windows, is below this part of the largest
+        harmonic of each output; default 1e-3 */
+    double floor; /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
 } dmb_stepped_sine_options;
 DMB_SIZED_STRUCT(dmb_stepped_sine_options)
-
 typedef struct dmb_stepped_sine_report {
     uint32_t struct_size;
-    int32_t settled;   /* 1 if it was */
-    uint32_t windows;  /* [-] run */
-    uint32_t rejected; /* [-] steps tried and not accepted */
-    uint64_t steps;    /* [-] accepted */
-    double change;     /* [-] between the last two windows, of the largest harmonic, worst output */
-    double remaining;  /* [-] estimated still to come */
-    double time;       /* [s] reached */
+    int32_t settled; /* 1 if it was */
+    uint32_t windows, rejected; /* [-] run; steps tried and not accepted */
+    uint64_t steps; /* [-] accepted */
+    double change, remaining; /* [-] between the last two windows, worst output; estimated still to come */
+    double time; /* [s] reached */
 } dmb_stepped_sine_report;
 DMB_SIZED_STRUCT(dmb_stepped_sine_report)
-
-/* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
- * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
- * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. DMB_OUTPUT_VIBRATION are displacements since
- * time 0, less their drift over the window, and rotations from the pose at the call, with revolutions about the place's
- * own axis counted; along the axes of the world or (_BODY) those the place has at the call, which do not turn with it;
- * _VELOCITY and _ACCELERATION are their rates. They are those of the linear response about that state, with axes at
- * rest if it spins. Other outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled
- * in `windows`; the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE,
- * _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last
- * accepted state. amplitudes and report are left alone on error. Cost: steps. */
+/* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree (eq:response.sine). amplitudes, shape
+ * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part
+ * of (re + i im) e^(2 pi i k frequency t), t the sim's time. DMB_OUTPUT_VIBRATION .. are those of the linear response about the
+ * state at the call, with axes at rest if it spins, less the drift over the window; other outputs as those of queries.
+ * DMB_NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: DMB_ERR_UNSUPPORTED with nothing
+ * changed; those of dmb_sim_step, after which the sim is in its last accepted state. Cost: steps. */
 DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
                                           const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                           dmb_stepped_sine_report *report);
 
 /* ---- Safe speeds -------------------------------------------------------------------------------------------------
- * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment,
- * at 3 W by a tricone bit, at the number of blades times W by the cut. */
+ * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by
+ * a tricone bit, at the number of blades times W by the cut. */
 typedef struct dmb_order {
-    uint32_t struct_size;
-    uint32_t reserved;
-    double order;              /* [-] frequency over rotary speed, > 0; default 1 */
+    uint32_t struct_size, reserved;
+    double order; /* [-] frequency over rotary speed, > 0; default 1 */
     dmb_excitation excitation; /* with its amplitude; default: the scene's eccentric masses, as they are */
 } dmb_order;
 DMB_SIZED_STRUCT(dmb_order)
-
 typedef struct dmb_speeds_report {
-    uint32_t struct_size;
-    uint32_t bands;         /* [-] that were found, those without room included */
+    uint32_t struct_size, bands; /* [-] that were found, those without room included */
     uint32_t silent_orders; /* [-] orders whose excitation moves no output at any speed */
-    int32_t undamped;       /* 1: nothing damps, so that heights at resonances mean nothing */
-    int32_t truncated;      /* 1: a band continues below speed_low, 2: above speed_high, 3: both, 0: none */
-    int32_t reserved;
+    int32_t undamped; /* 1: nothing damps, so that heights at resonances mean nothing */
+    int32_t truncated, reserved; /* 1: a band continues below speed_low, 2: above speed_high, 3: both, 0: none */
 } dmb_speeds_report;
 DMB_SIZED_STRUCT(dmb_speeds_report)
-
 typedef struct dmb_speeds_options {
-    uint32_t struct_size;
-    uint32_t points;     /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
-    double speed_low;    /* [rad/s] > 0; default 1 */
-    double speed_high;   /* [rad/s] > speed_low; default 30 */
-    double threshold;    /* [-] severity above which a speed is to be avoided, > 0; default 1 */
-    double margin;       /* [-] by which bands are wider on both sides, part of the speed, 0 .. 0.5; default
-                            0.03 */
+    uint32_t struct_size, points; /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
+    double speed_low, speed_high; /* [rad/s] > 0, the second above the first; default 1 and 30 */
+    double threshold, margin; /* [-] severity above which a speed is to be avoided, > 0; by which bands are wider on both sides,
+        part of the speed, 0 .. 0.5; default 1, 0.03 */
     uint32_t refinement; /* [-] as of a response, for each order; default 12 */
-    int32_t contact;     /* these as of a response, but for friction, default 0: a string that turns slides, */
-    int32_t friction;    /* and sliding has next to no slope */
-    int32_t reserved;
-    double contact_gap, structural_damping, equilibrium_tolerance; /* [m, -, -] as of a response, same defaults */
+    int32_t contact; /* these as of a response, but for friction, default 0: a string that turns slides, */
+    int32_t friction, reserved; /* and sliding has next to no slope */
+    double contact_gap, structural_damping, equilibrium_tolerance; /* [m; -; -] as of a response, same defaults */
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
-    const void *unused;        /* NULL */
-    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they
-                    do. After a static state with slip_rotation of this speed and friction 1, the string lies where
-                    friction carries it; eccentric masses are out of balance there (equilibrium_tolerance) */
+    const void *unused; /* NULL */
+    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a
+        static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses
+        are out of balance there (equilibrium_tolerance) */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
-
 typedef struct dmb_speed_band {
     uint32_t struct_size;
-    uint32_t order;  /* [-] number of the order that counts most at the worst speed */
-    uint32_t output; /* [-] number of its output that is worst */
-    uint32_t reserved;
-    double low, high;  /* [rad/s] of the band, margin included */
-    double speed;      /* [rad/s] the worst in it */
-    double severity;   /* [-] there */
-    double frequency;  /* [Hz] of that order there */
-    int32_t truncated; /* 1: continues below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
-    int32_t reserved1; /* 0 */
+    uint32_t order, output, reserved; /* [-] number of the order that counts most at the worst speed, and of its worst output */
+    double low, high; /* [rad/s] of the band, margin included */
+    double speed, severity; /* [rad/s; -] the worst in it, and its severity */
+    double frequency; /* [Hz] of that order there */
+    int32_t truncated, reserved1; /* 1: continues below speed_low, 2: above speed_high, 3: both, 0: whole */
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
-
-/* Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the
- * largest amplitude of an output over its limit, by the linear response at order times speed in axes at rest, where
- * orders are counted, about the rotating state; 1 is the limit even where all orders add up. limits:
- * [unit of the output] > 0, shape (output_count). bands: *band_count on entry is the capacity, the struct_size of the
- * first holds for all; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found. severity,
- * shape (points), may be NULL: largest within half a step of the grid around each speed. DMB_NOTE_INCOMPLETE
- * (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band is truncated at an
- * end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as
- * dmb_analysis_response, with nothing written. Cost: that of order_count responses. */
+/* Bands of rotary speed to avoid about the accepted state of a sim, by the severity (eq:response.severity) of the linear response
+ * in axes at rest; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands:
+ * *band_count on entry is the capacity, the struct_size of the first holds for all; on return the number of bands, by rising
+ * speed, DMB_NOTE_FULL where more were found. severity, shape (points), may be NULL: largest within half a step of the grid
+ * around each speed. DMB_NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing
+ * damps, a band is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state.
+ * Errors as dmb_analysis_response. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                                    uint32_t order_count, const dmb_output *outputs, const double *limits,
-                                    uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,
-                                    double *severity);
+                                    uint32_t order_count, const dmb_output *outputs, const double *limits, uint32_t output_count,
+                                    dmb_speed_band *bands, uint32_t *band_count, double *severity);
 
-/* ---- State space -------------------------------------------------------------------------------------------------
- * M d'' + C d' + K d = f about a state, as a frequency response has it, in first order:
- *
- *     x' = A x + B u,     y = C x + D u;     C (i w - A)^-1 B + D is the frequency response.
- *
- * x: displacements and speeds of `coordinates`, then the states of inputs, in their order: the integral of the target
- * of a controller with integral gain, the displacement of a motion drive. u: changes of the inputs, y: of the outputs,
- * both from the state. With joints the coordinates are independent ones. All terms of C and K act, unsymmetric ones
- * (gyroscopic, friction, followers) too. */
+/* ---- State space --------------------------------------------------------------------------------------------------
+ * M d'' + C d' + K d = f about a state, as a frequency response has it, in first order: x' = A x + B u, y = C x + D u; C (i w -
+ * A)^-1 B + D is the frequency response. x: displacements and speeds of `coordinates`, then the states of inputs, in their order:
+ * the integral of the target of a controller with integral gain, the displacement of a motion drive. u: changes of the inputs, y:
+ * of the outputs, both from the state. With joints the coordinates are independent ones. */
 enum {
-    DMB_STATE_FULL = 0,    /* all coordinates */
-    DMB_STATE_REDUCED = 1, /* amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of
-                              an input, two or three for a motion drive, so that results are exact at frequency `shift`.
-                              Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of
-                              complex shapes it takes real and imaginary part */
+    DMB_STATE_FULL = 0, /* all coordinates */
+    DMB_STATE_REDUCED = 1, /* amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input,
+        two or three for a motion drive, so that results are exact at frequency `shift`. Galerkin's method on that real basis,
+        orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part */
     DMB_STATE_MATRICES = 2 /* none: sparse matrices alone, about any state; no inputs nor outputs */
 };
 enum {
-    DMB_MOTION_SPEED = 0,       /* the input of a motion drive is its speed. Outputs that feel accelerations at once
-                                   (forces beside the drive) would depend on its rate: DMB_ERR_UNSUPPORTED */
+    DMB_MOTION_SPEED = 0, /* the input of a motion drive is its speed. Outputs that feel accelerations at once (forces beside the
+        drive) would depend on its rate: DMB_ERR_UNSUPPORTED */
     DMB_MOTION_ACCELERATION = 1 /* it is the rate of that [m/s2, rad/s2], with displacement and speed as states */
 };
 typedef struct dmb_state_space_options {
     uint32_t struct_size;
-    int32_t form;              /* DMB_STATE_..., default DMB_STATE_FULL */
-    int32_t motion;            /* DMB_MOTION_..., default DMB_MOTION_SPEED */
+    int32_t form, motion; /* DMB_STATE_..., default DMB_STATE_FULL; DMB_MOTION_..., default DMB_MOTION_SPEED */
     int32_t static_correction; /* 1 (default): quasi-static shapes of the inputs in the basis; 0: modes alone */
-    const dmb_modes *modes;    /* of DMB_STATE_REDUCED: modes about this state, of any kind, contact as here */
-    const int32_t *mode_list;  /* [-] numbers of those that are taken, shape (mode_count); NULL (default): all */
-    uint32_t mode_count;       /* [-] of mode_list; 0 (default) without one */
-    int32_t contact;           /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
-    int32_t friction;          /* as of a response, default 1 */
-    int32_t reserved;
-    double contact_gap;           /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
+    const dmb_modes *modes; /* of DMB_STATE_REDUCED: modes about this state, of any kind, contact as here */
+    const int32_t *mode_list; /* [-] numbers of those that are taken, shape (mode_count); NULL (default): all */
+    uint32_t mode_count; /* [-] of mode_list; 0 (default) without one */
+    int32_t contact, friction, reserved; /* DMB_CONTACT_...; as of a response; default DMB_CONTACT_AS_IS, 1 */
+    double contact_gap; /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it; default 1e-6 */
-    double shift; /* [Hz] >= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move
-                     as a rigid body, far below the frequencies that count */
+    double shift; /* [Hz] >= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move as a
+        rigid body, far below the frequencies that count */
 } dmb_state_space_options;
 DMB_SIZED_STRUCT(dmb_state_space_options)
-
 typedef struct dmb_state_space_info {
-    uint32_t struct_size;
-    uint32_t states;          /* [-] 2 coordinates + input_states; 0 of DMB_STATE_MATRICES */
+    uint32_t struct_size, states; /* [-] 2 coordinates + input_states; 0 of DMB_STATE_MATRICES */
     uint32_t inputs, outputs; /* [-] */
-    uint32_t coordinates;     /* [-] of A: independent ones, or shapes of the basis */
-    uint32_t mode_shapes;     /* [-] of these, of modes; the others are quasi-static */
-    uint32_t input_states;    /* [-] */
-    uint32_t rows;            /* [-] of M, C, K: all rows of the scene, held ones too */
-    uint32_t independent;     /* [-] columns of DMB_MATRIX_COORDINATES */
+    uint32_t coordinates; /* [-] of A: independent ones, or shapes of the basis */
+    uint32_t mode_shapes, input_states; /* [-] of these, of modes, the others being quasi-static; states of inputs */
+    uint32_t rows, independent; /* [-] of M, C, K: all rows of the scene, held ones too; columns of DMB_MATRIX_COORDINATES */
     uint32_t constraint_rows; /* [-] of the Jacobian: equations that act */
-    double residual_of_state; /* [-] relative */
-    double largest_force;     /* [N] of it */
+    double residual_of_state, largest_force; /* [-; N] relative; of it */
 } dmb_state_space_info;
 DMB_SIZED_STRUCT(dmb_state_space_info)
-
 typedef struct dmb_state_space dmb_state_space; /* matrices of the linear system about one state */
 /* About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for
- * DMB_STATE_MATRICES). excitations, outputs: as of dmb_analysis_response, 0 .. 1024 each, those of scene.h by
- * DMB_EXCITATION_SETTING; excitations that go with the square of the frequency (unbalance, eccentricity) are refused.
- * options may be NULL. The state is not changed; sim takes the message
- * and need not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of
- * dmb_analysis_response, and so is DMB_NOTE_INCOMPLETE; DMB_ERR_TOO_LARGE above 4096 states (reduce), DMB_ERR_SINGULAR
- * for a mass or a stiffness that is singular (shift). O(coordinates^2) of DMB_STATE_FULL, O(shapes x elements) of
- * DMB_STATE_REDUCED, O(elements) of DMB_STATE_MATRICES. */
-DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options,
-                                         const dmb_excitation *excitations, uint32_t excitation_count,
-                                         const dmb_output *outputs, uint32_t output_count, dmb_state_space **space);
-/* Sets *space to NULL. NULL-safe. */
+ * DMB_STATE_MATRICES). excitations, outputs: as of dmb_analysis_response, 0 .. 1024 each; excitations that go with the square of
+ * the frequency (unbalance, eccentricity) are refused. The sim need not outlive the result, nor need the modes. Notes and errors
+ * as dmb_analysis_response; DMB_ERR_TOO_LARGE above 4096 states (reduce), _SINGULAR for a mass or a stiffness that is singular
+ * (shift). O(coordinates^2) of FULL, O(shapes x elements) of REDUCED, O(elements) of MATRICES. */
+DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_excitation *excitations,
+                                         uint32_t excitation_count, const dmb_output *outputs, uint32_t output_count,
+                                         dmb_state_space **space);
 DMB_API void dmb_state_space_destroy(dmb_state_space **space);
-/* Errors of this and the following functions: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE. */
 DMB_API int32_t dmb_state_space_get_info(const dmb_state_space *space, dmb_state_space_info *info);
 
 enum {
@@ -746,334 +567,266 @@ enum {
     DMB_MATRIX_C = 2, /* shape (outputs, states) */
     DMB_MATRIX_D = 3, /* shape (outputs, inputs) */
     DMB_MATRIX_MASS = 4,
-    DMB_MATRIX_DAMPING = 5,    /* with gyroscopic terms */
-    DMB_MATRIX_STIFFNESS = 6,  /* each by all rows, body-frame displacements; shape (rows, rows) */
-    DMB_MATRIX_JACOBIAN = 7,   /* of the equations of joints, couplings, constraints and joint drives that act; shape
-                                  (constraint_rows, rows) */
+    DMB_MATRIX_DAMPING = 5, /* with gyroscopic terms */
+    DMB_MATRIX_STIFFNESS = 6, /* each by all rows, body-frame displacements; shape (rows, rows) */
+    DMB_MATRIX_JACOBIAN = 7, /* of the equations that act; shape (constraint_rows, rows) */
     DMB_MATRIX_COORDINATES = 8 /* R of d = R z, z the independent coordinates; shape (rows, independent) */
 };
 /* One of A, B, C, D, row by row. */
 DMB_API int32_t dmb_state_space_dense(const dmb_state_space *space, int32_t matrix, double *values);
-/* One of the sparse matrices as triplets, row by row, none twice. All three arrays NULL: *count is their length. Else
- * *count on entry is the capacity and on return the number written; too little is DMB_ERR_VALUE. */
+/* One of the sparse matrices as triplets, row by row, none twice. All three arrays NULL: *count is their length. Else *count on
+ * entry is the capacity (too little is DMB_ERR_VALUE) and on return the number written. */
 DMB_API int32_t dmb_state_space_sparse(const dmb_state_space *space, int32_t matrix, uint32_t *rows, uint32_t *columns,
                                        double *values, uint64_t *count);
-/* Shapes of the coordinates of A by rows, shape (coordinates, rows): unit motions of DMB_STATE_FULL, the basis of
- * DMB_STATE_REDUCED. */
+/* Shapes of the coordinates of A by rows, shape (coordinates, rows): unit motions of FULL, the basis of REDUCED. */
 DMB_API int32_t dmb_state_space_shapes(const dmb_state_space *space, double *shapes);
 
 /* ---- The state as arrays -----------------------------------------------------------------------------------------
- * Rows are the components of the body-frame velocities of the nodes: six (translation; rotation) of a node that moves
- * freely, two (along the hole; about its axis) of one that slides on the hole's axis; nodes along the strings, then
- * bodies. */
+ * Rows are the components of the body-frame velocities of the nodes: six (translation; rotation) of a node that moves freely, two
+ * (along the hole; about its axis) of one that slides on the hole's axis; nodes along the strings, then bodies. */
 enum {
-    DMB_ARRAY_VELOCITY = 0,     /* [m/s, rad/s] shape (rows) */
+    DMB_ARRAY_VELOCITY = 0, /* [m/s, rad/s] shape (rows) */
     DMB_ARRAY_ACCELERATION = 1, /* [m/s2, rad/s2] rates of those, shape (rows) */
-    DMB_ARRAY_POSITION = 2,     /* [m] of the nodes, world, shape (nodes, 3) */
-    DMB_ARRAY_QUATERNION = 3,   /* [-] body to world, scalar first, shape (nodes, 4) */
-    DMB_ARRAY_MULTIPLIER = 4,   /* [N, ...] of the rows of DMB_MATRIX_JACOBIAN: residual + J^T multiplier = 0 */
-    DMB_ARRAY_RESIDUAL = 5 /* [N, N m] of the equations of motion without forces of constraint, at the present pose,
-                              speeds and accelerations, shape (rows): M v' + ... - f; rows of supports keep their
-                              their rows */
+    DMB_ARRAY_POSITION = 2, /* [m] of the nodes, world, shape (nodes, 3) */
+    DMB_ARRAY_QUATERNION = 3, /* [-] body to world, scalar first, shape (nodes, 4) */
+    DMB_ARRAY_MULTIPLIER = 4, /* [N, ...] of the rows of DMB_MATRIX_JACOBIAN: residual + J^T multiplier = 0 */
+    DMB_ARRAY_RESIDUAL = 5 /* [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and
+        accelerations, shape (rows): M v' + ... - f; rows of supports keep their their rows */
 };
-/* values NULL: *count is the length of the array. Else *count on entry is the capacity (too little is DMB_ERR_VALUE)
- * and on return the number written. The sim takes a message for a failing residual (those of dmb_sim_step). */
+/* values NULL: *count is the length of the array. Else *count on entry is the capacity (too little is DMB_ERR_VALUE) and on
+ * return the number written. */
 DMB_API int32_t dmb_analysis_array(dmb_sim *sim, int32_t array, double *values, uint64_t *count);
 
 enum { DMB_ROW_FREE = 0, DMB_ROW_HELD = 1, DMB_ROW_DRIVEN = 2 };
 typedef struct dmb_row {
     uint32_t struct_size;
     int32_t component; /* DMB_X .. DMB_RZ of the body-frame velocity */
-    dmb_id part;       /* string or body that the node belongs to */
-    uint32_t pipe;     /* [-] of the string; the one before the node */
-    uint32_t node;     /* [-] */
-    int32_t state;     /* DMB_ROW_FREE, held by a support, or driven by a motion drive */
-    int32_t reserved;
+    dmb_id part; /* string or body that the node belongs to */
+    uint32_t pipe, node; /* [-] of the string, the one before the node; number of the node */
+    int32_t state, reserved; /* DMB_ROW_FREE, held by a support, or driven by a motion drive */
 } dmb_row;
 DMB_SIZED_STRUCT(dmb_row)
-/* The part or node that a row belongs to. DMB_ERR_VALUE where there is no such row. */
+/* The part or node that a row belongs to. */
 DMB_API int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer);
 /* A small motion of a place as a linear function of those of rows: component DMB_X .. DMB_RZ in the axes of `frame`
- * (DMB_FRAME_WORLD, DMB_FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. A force there acts on the rows by the
- * same numbers. The sim takes the message. */
-DMB_API int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component,
-                                        uint32_t rows[24], double values[24], uint32_t *count);
-/* The first row of the Jacobian that is an equation of a joint, coupling, constraint or joint drive, and their count.
- */
+ * (DMB_FRAME_WORLD, DMB_FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. Forces act by the same numbers. */
+DMB_API int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component, uint32_t rows[24],
+                                        double values[24], uint32_t *count);
+/* The first row of the Jacobian that is an equation of a joint, coupling, constraint or joint drive, and their count. */
 DMB_API int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
 
-/* ---- Sensitivities ---------------------------------------------------------------------------------------------- */
-/* Sensitivities: how the state and any output change with chosen parameters, along a run.
- *
- * A parameter is given by two sims besides the one that runs: the same scene with the parameter a little lower and a
- * little higher, brought to the same time in the same way (created; or settled by dmb_analysis_static). So anything
- * that can be described can be one: a coefficient of friction, a diameter, the energy of the rock, a value of a
- * time function, the survey; of sims of one model, an initial speed or the values of dmb_sim_set_drive, _set_input. */
+/* ---- Sensitivities ------------------------------------------------------------------------------------------------ */
+/* Derivatives of the state and of any output by chosen parameters, along a run (eq:sensitivity.step). A parameter is given by two
+ * sims besides the one that runs: the same scene with the parameter a little lower and a little higher, brought to the same time
+ * in the same way (created; or settled by dmb_analysis_static). So anything that can be described can be one; of sims of one
+ * model, an initial speed or the values of dmb_sim_set_drive, _set_input. */
 typedef struct dmb_sensitivity dmb_sensitivity; /* derivatives of one run */
-
 typedef struct dmb_parameter {
     uint32_t struct_size;
-    int32_t one_sided;   /* 1: steps are taken on the high side only, at half the cost; errors are then of first order
-                            in `step`, not of second; default 0 */
-    double step;         /* [unit of the parameter] > 0: `high` has it this much above the sim, `low` this much below.
-                            Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in
-                            rounding, of more the third power is felt */
-    const dmb_sim *low;  /* only read, and only by dmb_sensitivity_create */
+    int32_t one_sided; /* 1: steps are taken on the high side only, at half the cost, errors of first order in `step`; default
+        0 */
+    double step; /* [unit of the parameter] > 0: `high` has it this much above the sim, `low` this much below. Quantities that
+        depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt */
+    const dmb_sim *low; /* only read, and only by dmb_sensitivity_create */
     const dmb_sim *high; /* as `low` */
-    char name[24];       /* for messages, ends with 0; default "" */
+    char name[24]; /* for messages, ends with 0; default "" */
 } dmb_parameter;
 DMB_SIZED_STRUCT(dmb_parameter)
-
-/* Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state.
- * parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive the object, which holds
- * its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): DMB_ERR_NULL, _HANDLE,
- * _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs
- * that are not numbers, or an input (scene.h) is changing towards its set point; _UNSUPPORTED: joints with
- * DMB_METHOD_MULTIPLIERS, actuators with a delay, time functions whose times differ; _TOO_LARGE: clusters that are
- * solved by sparse matrices; _NO_MEMORY. O(count * size of the state). */
+/* Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state. parameters: count
+ * (1 .. 4096) of them, each with the same struct_size. The sim must outlive the object, which holds its models. Errors:
+ * DMB_ERR_VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs that are not
+ * numbers, or an input is changing towards its set point; _UNSUPPORTED: joints with DMB_METHOD_MULTIPLIERS, actuators with a
+ * delay, time functions whose times differ; _TOO_LARGE: clusters that are solved by sparse matrices. O(count * state). */
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
-/* Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe. */
 DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
-
-/* dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it:
- * of each accepted step as it was done, its length, its breakpoints and its kept accelerations included. Between two of
- * these calls the sim may be changed by dmb_sim_set_drive only; inputs of scene.h stay as they were set when this was
- * made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle
- * or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors
- * as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; DMB_ERR_SINGULAR: the iteration
- * matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs
- * an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each
- * side of a parameter; more where contacts change, with joints, bits, actuators, stuck places and callers' forces: in a
- * string in contact some 0.8 steps for each of four parameters, one-sided 0.55. */
+/* dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it
+ * was done. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this
+ * was made. DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the
+ * derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was
+ * moved by other calls; _SINGULAR: the iteration matrix at the end of a step. Allocates nothing. Four parameters in contact cost
+ * some 3 steps a step, one-sided 2; more with joints, bits, actuators, stuck places and callers' forces. */
 DMB_API int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report);
 DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report);
-
-/* Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the
- * output over that of the parameter], shape (count, parameters). Errors: those of the outputs' queries, with a
- * message of the sim; DMB_ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was
- * moved by other calls; nothing is written then. */
-DMB_API int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *outputs, uint32_t count,
-                                        double *values, double *derivatives);
-/* Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free
- * and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many
- * there are; with both arrays NULL that is all. Errors: _ORDER as above. */
+/* Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the output over
+ * that of the parameter], shape (count, parameters). Errors: those of the outputs' queries; DMB_ERR_UNSUPPORTED: works, energies
+ * summed over the run, counts, windows; _ORDER: the sim was moved by other calls. */
+DMB_API int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *outputs, uint32_t count, double *values,
+                                        double *derivatives);
+/* Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free and held
+ * components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many there are; with
+ * both arrays NULL that is all. Errors: _ORDER as above. */
 DMB_API int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter, double *pose, double *velocity,
                                      uint32_t *rows);
-/* *kinks [-]: accepted steps so far in which the parameter was not smooth. Errors: DMB_ERR_VALUE for a number that is
- * none. */
+/* *kinks [-]: accepted steps so far in which the parameter was not smooth. */
 DMB_API int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t parameter, uint64_t *kinks);
 
-/* ---- State equation ---------------------------------------------------------------------------------------------- */
-/* y' = f(t, y) of a scene, for integrators, optimisers and model exchange of others. y: n positions, then the n
- * body-frame velocities [m/s, rad/s] of the same independent rows (dmb_query_row). Positions count from an origin, the
- * pose (x0, R0) of each node in the sim when this is made:
+/* ---- State equation ----------------------------------------------------------------------------------------------- */
+/* y' = f(t, y) of a scene, for integrators, optimisers and model exchange of others. y: n positions, then the n body-frame
+ * velocities [m/s, rad/s] of the same independent rows (dmb_query_row). Positions count from an origin, the pose (x0, R0) of each
+ * node in the sim when this is made:
  *     x = x0 + R0 (y_X, y_Y, y_Z),   R = R0 exp(0, y_RY, y_RZ) exp(y_RX, 0, 0)
- * [m, rad]; along and about the hole's axis of axial-torsional nodes. RX is unbounded; where RY and RZ come to 2.5 rad
- * together, dmb_state_equation_begin moves the origin. Joints, drives and inputs stay in the states they have in the
- * sim. Jumps of time functions are those of y': an integrator should stop there. */
+ * [m, rad]; along and about the hole's axis of axial-torsional nodes. RX is unbounded; where RY and RZ come to 2.5 rad together,
+ * dmb_state_equation_begin moves the origin. Joints, drives and inputs stay in the states they have in the sim. Jumps of time
+ * functions are those of y': an integrator should stop there. */
 typedef struct dmb_state_equation dmb_state_equation;
-/* Copies the sim, which is left as it is and may be destroyed first; memory of its allocator; the calls below allocate
- * nothing. Errors: DMB_ERR_UNSUPPORTED: the message names a part whose force is no function of pose, velocity and time
- * (bristles, restitution laws, rock that is cut, integral gains, delay, lag and rate limit of actuators, places that
- * are stuck), or by which positions depend on the path (nonholonomic joints, a motion drive across a part's rotation);
- * _TOO_LARGE (clusters of joints), _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
+/* Copies the sim, which is left as it is and may be destroyed first; the calls below allocate nothing. Errors:
+ * DMB_ERR_UNSUPPORTED: the message names a part whose force is no function of pose, velocity and time (bristles, restitution
+ * laws, rock that is cut, integral gains, delay, lag and rate limit of actuators, places that are stuck), or by which positions
+ * depend on the path (nonholonomic joints, a motion drive across a part's rotation); _TOO_LARGE (clusters of joints). */
 DMB_API int32_t dmb_state_equation_create(dmb_sim *sim, dmb_state_equation **equation);
-/* Sets *equation to NULL; does nothing within one of its calls. NULL-safe. */
 DMB_API void dmb_state_equation_destroy(dmb_state_equation **equation);
-/* [-] n, half the length of y; 0 for a handle of none. */
-DMB_API uint32_t dmb_state_equation_count(const dmb_state_equation *equation);
+DMB_API uint32_t dmb_state_equation_count(const dmb_state_equation *equation); /* [-] n, half the length of y; 0 of none */
 /* Row of each coordinate, ascending, shape (n). */
 DMB_API int32_t dmb_state_equation_rows(const dmb_state_equation *equation, uint32_t *rows);
 /* y of the origin, shape (2 n), and its *time [s], which may be NULL. */
 DMB_API int32_t dmb_state_equation_origin(const dmb_state_equation *equation, double *time, double *y);
-/* rate = f(time, y), shape (2 n) both, one array or two; positions that joints make dependent are solved for from the
- * origin on, so that equal y have equal bits. If a constraint of the caller turns parts with time, move the origin at
- * least once each radian of that motion: branch and revolutions are those nearest to the origin. Errors: DMB_ERR_VALUE,
- * _NOT_FINITE, _CALLBACK, _ROTATION; _GEOMETRY: too far from the origin, or a joint where its angles are not defined;
- * _SINGULAR, _NO_CONVERGENCE: joints cannot be closed with these coordinates. O(elements), with joints more the farther
- * the origin. */
+/* rate = f(time, y), shape (2 n) both, one array or two; positions that joints make dependent are solved for from the origin on,
+ * so that equal y have equal bits. If a constraint of the caller turns parts with time, move the origin at least once each radian
+ * of that motion: branch and revolutions are those nearest to the origin. Errors: DMB_ERR_VALUE, _NOT_FINITE, _CALLBACK,
+ * _ROTATION; _GEOMETRY: too far from the origin, or a joint where its angles are not defined; _SINGULAR, _NO_CONVERGENCE: joints
+ * cannot be closed with these coordinates. O(elements), with joints more the farther the origin. */
 DMB_API int32_t dmb_state_equation_rate(dmb_state_equation *equation, double time, const double *y, double *rate);
-/* The state y at `time` becomes the origin and y its numbers, maybe of other rows. Errors as above, which change
- * nothing but the sim below; also DMB_ERR_SINGULAR where n would change. */
+/* The state y at `time` becomes the origin and y its numbers, maybe of other rows. Errors as above, which change nothing but the
+ * sim below; also DMB_ERR_SINGULAR where n would change. */
 DMB_API int32_t dmb_state_equation_begin(dmb_state_equation *equation, double time, double *y);
-/* A sim in the state of the last call of _rate or _begin, for queries alone (ask.h: accelerations, reactions of joints,
- * outputs); NULL where that call failed. Its sums and counts over a run are those of the sim copied, and there are no
- * energies of the ledger. Lives as long as the equation. */
+/* A sim in the state of the last call of _rate or _begin, for queries alone (ask.h: accelerations, reactions of joints, outputs);
+ * NULL where that call failed. Its sums and counts over a run are those of the sim copied, and there are no energies of the
+ * ledger. Lives as long as the equation. */
 DMB_API const dmb_sim *dmb_state_equation_sim(const dmb_state_equation *equation);
 
-/* ---- Drilling --------------------------------------------------------------------------------------------------- */
+/* ---- Drilling ----------------------------------------------------------------------------------------------------- */
 enum {
-    DMB_OPERATION_PICK_UP = 0,   /* pulled without turning */
+    DMB_OPERATION_PICK_UP = 0, /* pulled without turning */
     DMB_OPERATION_SLACK_OFF = 1, /* lowered or pushed without turning */
-    DMB_OPERATION_ROTATE = 2,    /* turned off bottom */
-    DMB_OPERATION_DRILL = 3,     /* turned and fed, with load and torque on the bit */
-    DMB_OPERATION_SLIDE = 4,     /* fed without turning the string, with load and the motor's torque on the bit */
-    DMB_OPERATION_BACK_REAM = 5  /* turned and pulled */
+    DMB_OPERATION_ROTATE = 2, /* turned off bottom */
+    DMB_OPERATION_DRILL = 3, /* turned and fed, with load and torque on the bit */
+    DMB_OPERATION_SLIDE = 4, /* fed without turning the string, with load and the motor's torque on the bit */
+    DMB_OPERATION_BACK_REAM = 5 /* turned and pulled */
 };
 typedef struct dmb_operation {
-    uint32_t struct_size;
-    uint32_t reserved;
-    double axial_speed;   /* [m/s] along the hole, > 0 into it; default 0 */
-    double rotary_speed;  /* [rad/s]; friction acts along the sum of both speeds at the pipe's surface; default 0 */
-    double weight_on_bit; /* [N] against the string's end, along the hole; default 0 */
-    double torque_on_bit; /* [N m] >= 0, against the rotation; default 0 */
+    uint32_t struct_size, reserved;
+    double axial_speed, rotary_speed; /* [m/s; rad/s] along the hole, > 0 into it; ; friction is along their sum; default 0 */
+    double weight_on_bit, torque_on_bit; /* [N; N m] along the hole against the end; >= 0, against the rotation; default 0 */
 } dmb_operation;
 DMB_SIZED_STRUCT(dmb_operation)
-/* Usual speeds of an operation DMB_OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads
- * on the bit 0, to be filled in. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE. */
+/* Usual speeds of an operation DMB_OPERATION_...: 0.1 m/s up or down, 1 rev/s, 0.005 m/s while drilling; loads on the bit 0. */
 DMB_API int32_t dmb_operation_usual(int32_t operation, dmb_operation *out);
 /* "pick-up", "slack-off", ...; NULL for a number that is none: they are numbered from 0 without gaps. */
 DMB_API const char *dmb_operation_name(int32_t operation);
-
 typedef struct dmb_torque_drag_options {
     uint32_t struct_size;
-    int32_t post_buckling; /* 1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where
-                              the compression F is above the load of helical buckling; 0: not */
-    dmb_id string;         /* {0, 0}: the model's first string */
-    double friction; /* [-] coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth */
-    const double *depths; /* [m] measured depths of the string's far end, shape (depth_count), beyond its start_depth by
-                             at most its length; NULL: one, where it ends as described */
+    int32_t post_buckling; /* 1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the
+        compression F is above the load of helical buckling; 0: not */
+    dmb_id string; /* {0, 0}: the model's first string */
+    double friction; /* [-] coefficient of all the hole, 0 .. 10; DMB_NOT_GIVEN (default): the wall's mu_dynamic at each depth */
+    const double *depths; /* [m] measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most
+        its length; NULL: one, where it ends as described */
     uint32_t depth_count; /* [-] 1 .. 2^20; default 1 */
-    int32_t friction_by_depth; /* of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the
-                                  hole; 1: the factor on the wall's mu_dynamic at each depth (scene.h) */
+    int32_t friction_by_depth; /* of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the
+        factor on the wall's mu_dynamic at each depth (scene.h) */
 } dmb_torque_drag_options;
 DMB_SIZED_STRUCT(dmb_torque_drag_options)
-
 typedef struct dmb_torque_drag_row {
     uint32_t struct_size;
-    int32_t locked;      /* 1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load,
-                            torque and the values along the string are NaN */
-    double depth;        /* [m] measured depth of the far end */
-    double hook_load;    /* [N] effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes */
-    double torque;       /* [N m] at the rig end, against friction and bit */
-    double transfer;     /* [-] share of a little more push at the rig that arrives at the bit; 1 without friction */
-    double lowest_force; /* [N] least effective axial force; most compressed where < 0 */
-    double lowest_at;    /* [m] measured depth where */
-    double sinusoidal_share; /* [-] largest share of the load of sinusoidal buckling, as of a profile; NaN where a
-                                compressed part is not pressed to the wall */
-    double helical_share;    /* [-] the same of helical buckling */
-    double buckled_at;       /* [m] measured depth where that is */
-    double helix_length;     /* [m] of string above the load of helical buckling */
-    double yield_share;      /* [-] largest von Mises stress over yield_strength, bending to the hole's curvature
-                                included; NaN where a pipe has no yield_strength */
-    double yield_at;         /* [m] measured depth where */
-    double stretch;          /* [m] by the effective force, > 0 longer */
-    double wind_up;          /* [rad] of the rig end against the bit */
-    double wall_force;       /* [N] sum over the string */
+    int32_t locked; /* 1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN */
+    double depth; /* [m] measured depth of the far end */
+    double hook_load, torque; /* [N; N m] effective axial force at the rig end, > 0: it pulls, < 0: it pushes; there */
+    double transfer; /* [-] share of a little more push at the rig that arrives at the bit; 1 without friction */
+    double lowest_force, lowest_at; /* [N; m] least effective axial force, most compressed where < 0; measured depth where */
+    double sinusoidal_share; /* [-] largest share of the sinusoidal buckling load, as of a profile; NaN without wall force */
+    double helical_share, buckled_at; /* [-; m] the same of helical buckling; measured depth where that is */
+    double helix_length; /* [m] of string above the load of helical buckling */
+    double yield_share, yield_at; /* [-; m] largest von Mises stress over yield_strength, bending to the hole's curvature
+        included; NaN where a pipe has no yield_strength; measured depth where */
+    double stretch, wind_up; /* [m; rad] by the effective force, > 0 longer; of the rig end against the bit */
+    double wall_force; /* [N] sum over the string */
 } dmb_torque_drag_row;
 DMB_SIZED_STRUCT(dmb_torque_drag_row)
-
-/* One row for each depth and operation, shape (depth_count, operation_count), the struct_size of the first holds for
- * all. The string hangs together with its described pipes counted from the far end: at a depth less than where it is
- * described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places
- * beyond the survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth;
- * pressures are left out of yield_share. Of the sim only the model is used; it does not change. Errors:
- * DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has stabilisers, or below its rig end a
- * joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place described stuck; DMB_ERR_VALUE,
- * _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2
- * m)). */
-DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *options,
-                                         const dmb_operation *operations, uint32_t operation_count,
-                                         dmb_torque_drag_row *rows);
-
-/* Along the string in one operation at the first of the depths: at station_count (2 .. 2^20) places spread evenly from
- * the rig end to the far end. Arrays of shape (station_count), each may be NULL: measured depth [m], effective axial
- * force [N], torque [N m], wall force per metre [N/m]. Errors as above; DMB_ERR_NO_CONVERGENCE where the string locks
- * up. */
+/* One row for each depth and operation, shape (depth_count, operation_count), the struct_size of the first holds for all. The
+ * string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first
+ * pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the
+ * straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures are left out of yield_share.
+ * Of the sim only the model is used. Errors: DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has
+ * stabilisers, or below its rig end a joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place
+ * described stuck. O(depths x operations x (pipes' runs + stations + length / 2 m)). */
+DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *options, const dmb_operation *operations,
+                                         uint32_t operation_count, dmb_torque_drag_row *rows);
+/* Along the string in one operation at the first of the depths: at station_count (2 .. 2^20) places spread evenly from the rig
+ * end to the far end. Arrays of shape (station_count), each may be NULL: measured depth [m], effective axial force [N], torque [N
+ * m], wall force per metre [N/m]. Errors as dmb_analysis_torque_drag; DMB_ERR_NO_CONVERGENCE where the string locks up. */
 DMB_API int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_drag_options *options,
                                                  const dmb_operation *operation, uint32_t station_count, double *depth,
                                                  double *axial_force, double *torque, double *wall_force);
 
 enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
-/* The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m]
- * measured at the rig in one operation at the first of the depths. DMB_ERR_VALUE where none does: the message states
- * the range. About 60 times the work of a row. */
-DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options,
-                                             const dmb_operation *operation, int32_t measured, double value,
-                                             double *friction);
+/* The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m] measured at the
+ * rig in one operation at the first of the depths. Errors as dmb_analysis_torque_drag; DMB_ERR_VALUE where none does: the message
+ * states the range. About 60 times the work of a row. */
+DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options, const dmb_operation *operation,
+                                             int32_t measured, double value, double *friction);
 
 /* ---- Hydraulics -------------------------------------------------------------------------------------------------- */
 typedef struct dmb_hydraulics {
-    uint32_t struct_size;
-    uint32_t reserved;
-    double depth;               /* [m] measured depth of the string's far end */
-    double vertical_depth;      /* [m] of it below the start of the string, along gravity; < 0 above it */
-    double bore_loss;           /* [Pa] down the string at the flow_rate, by friction */
-    double bit_loss;            /* [Pa] through nozzle_area */
-    double annulus_loss;        /* [Pa] up the annulus, by friction */
-    double pump_pressure;       /* [Pa] sum of the three and of the difference of the columns; motors are left out */
+    uint32_t struct_size, reserved;
+    double depth, vertical_depth; /* [m] measured depth of the far end; vertical one below the start of the string */
+    double bore_loss, bit_loss, annulus_loss; /* [Pa] friction in the string; through nozzle_area; friction in the annulus */
+    double pump_pressure; /* [Pa] sum of the three and of the difference of the columns; motors are left out */
     double circulating_density; /* [kg/m3] fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0 */
-    double trip_pressure;       /* [Pa] of the closed string at the trip speed, more going in, less coming out */
-    double surge_density;       /* [kg/m3] fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0 */
-    double swab_density;        /* [kg/m3] fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0 */
-    double reynolds;            /* [-] largest of bore, annulus and trip */
+    double trip_pressure; /* [Pa] of the closed string at the trip speed, more going in, less coming out */
+    double surge_density, swab_density; /* [kg/m3] fluid_density +, - trip_pressure/(g vertical_depth); NaN if that is <= 0 */
+    double reynolds; /* [-] largest of bore, annulus and trip */
 } dmb_hydraulics;
 DMB_SIZED_STRUCT(dmb_hydraulics)
-/* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by
- * at most its length, in steady flow, without gel strength (Burkhardt 1961); trip speeds 0 .. 10 m/s. Errors:
- * DMB_ERR_UNSUPPORTED without a flow_rate, DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE. O(length / 2 m). */
+/* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by at most
+ * its length, in steady flow, without gel strength (Burkhardt 1961); trip speeds 0 .. 10 m/s. Errors: DMB_ERR_UNSUPPORTED without
+ * a flow_rate. O(length / 2 m). */
 DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer);
 
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------
- * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the
- * rainflow method in memory that does not grow, and summed to a damage (Palmgren 1924; Miner 1945) by the S-N curve
- * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are
- * distinguished by `classes` levels, which ranges are compared by too; a cycle counts with the stress at its own. */
+ * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the rainflow
+ * method in memory that does not grow, and summed to a damage (Palmgren 1924; Miner 1945) by the S-N curve N = curve_cycles
+ * (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are distinguished by `classes` levels,
+ * which ranges are compared by too; a cycle counts with the stress at its own. */
 typedef struct dmb_fatigue dmb_fatigue;
 typedef struct dmb_fatigue_options {
-    uint32_t struct_size;
-    uint32_t classes; /* [-] levels of stress, 8 .. 65536; default 1024 */
-    uint32_t points;  /* [-] points around a section, 2 .. 360, the first on its y axis; default 8 */
-    uint32_t reserved;
-    double stress_range;     /* [Pa] levels spread over -stress_range .. stress_range, > 0; default 1e9 */
-    double concentration;    /* [-] factor on the stress, >= 1; default 1 */
-    double curve_stress;     /* [Pa] amplitude that is borne for curve_cycles, > 0; the user's, no default */
-    double curve_cycles;     /* [-] > 0; default 1e6 */
-    double slope;            /* [-] 1 .. 50; the user's, no default */
-    double endurance;        /* [Pa] amplitudes up to this do no damage, >= 0; default 0 */
-    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default):
-                                the mean does not count */
+    uint32_t struct_size, classes; /* [-] levels of stress, 8 .. 65536; default 1024 */
+    uint32_t points, reserved; /* [-] points around a section, 2 .. 360, the first on its y axis; default 8 */
+    double stress_range; /* [Pa] levels spread over -stress_range .. stress_range, > 0; default 1e9 */
+    double concentration; /* [-] factor on the stress, >= 1; default 1 */
+    double curve_stress, curve_cycles; /* [Pa; -] amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6 */
+    double slope, endurance; /* [-; Pa] 1 .. 50, the user's, no default; amplitudes up to this do no damage, >= 0, default 0 */
+    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): none */
 } dmb_fatigue_options;
 DMB_SIZED_STRUCT(dmb_fatigue_options)
-
 typedef struct dmb_fatigue_result {
-    uint32_t struct_size;
-    uint32_t point;   /* [-] the point of the section with the largest damage, or else the largest range */
-    uint64_t samples; /* [-] */
-    uint64_t clipped; /* [-] of them beyond stress_range, at any point: cycles wholly beyond it are missed */
-    double damage;    /* [-] 1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean
-                         stress of a cycle reaches tensile_strength: the section breaks at once */
-    double cycles;    /* [-] at that point, halves included */
-    double largest_range; /* [Pa] of them */
-    double lowest;        /* [Pa] stress at that point, concentration included */
-    double highest;       /* [Pa] highest stress there */
-    double time;          /* [s] between the first and the last sample */
-    double life;          /* [s] time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one */
+    uint32_t struct_size, point; /* [-] the point of the section with the largest damage, or else the largest range */
+    uint64_t samples, clipped; /* [-]; of them beyond stress_range, at any point: cycles wholly beyond it are missed */
+    double damage; /* [-] 1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a
+        cycle reaches tensile_strength: the section breaks at once */
+    double cycles, largest_range; /* [-; Pa] at that point, halves included; largest range of them */
+    double lowest, highest; /* [Pa] stresses at that point, concentration included */
+    double time; /* [s] between the first and the last sample */
+    double life; /* [s] time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one */
 } dmb_fatigue_result;
 DMB_SIZED_STRUCT(dmb_fatigue_result)
-
-/* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24
- * bytes a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message says why), _NOT_FINITE, _ID, _UNSUPPORTED (rigid
- * pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then. */
+/* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24 bytes a class
+ * and point. Errors: DMB_ERR_UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _TOO_LARGE. */
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);
-/* Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted.
- * Another sim of the same model may be given. DMB_ERR_ORDER before the time of the last sample, as after a restore:
- * restore the fatigue too. Allocates nothing. O(places x points). */
+/* Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted. Another
+ * sim of the same model may be given. DMB_ERR_ORDER before the time of the last sample, as after a restore: restore the fatigue
+ * too. Allocates nothing. O(places x points). */
 DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
 DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);
-/* Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa],
- * shape (classes). */
+/* Cycles by range at the point that the result names: cycles[i] of a range of i 2 stress_range/classes [Pa], shape (classes). */
 DMB_API int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles);
-/* The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places
- * continues bit for bit, in another process too. Allocate nothing. Errors, which change nothing: DMB_ERR_NULL, _HANDLE,
- * _VALUE (another size; bytes that are no counts of these options). O(places x points x classes). */
+/* The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places continues bit
+ * for bit, in another process too. Allocate nothing. Errors: DMB_ERR_VALUE (another size; bytes that are no counts of these
+ * options). O(places x points x classes). */
 DMB_API int32_t dmb_fatigue_snapshot_size(const dmb_fatigue *fatigue, size_t *size);
 DMB_API int32_t dmb_fatigue_snapshot(const dmb_fatigue *fatigue, void *block, size_t size);
 DMB_API int32_t dmb_fatigue_restore(dmb_fatigue *fatigue, const void *block, size_t size);
-/* Sets *fatigue to NULL. NULL-safe. */
 DMB_API void dmb_fatigue_destroy(dmb_fatigue **fatigue);
-
 DMB_C_END
 #endif

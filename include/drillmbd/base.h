@@ -1,8 +1,7 @@
-/* libdrillmbd - status codes, versions, memory, log and names of parts.
- * Everything in this library is in SI units; angles are in radians. A 6-vector is (translation; rotation). */
+/* libdrillmbd - status codes, versions, memory, log and names of parts. Everything in this library is in SI units; angles are in
+ * radians. A 6-vector is (translation; rotation). */
 #ifndef DRILLMBD_BASE_H
 #define DRILLMBD_BASE_H
-
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,20 +29,18 @@ DMB_C_BEGIN
 
 /* Version of the linked library, 10000 major + 100 minor + patch. Cannot fail. */
 DMB_API uint32_t dmb_version(void);
-
-/* The abilities of this build. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal
- * to rounding. FILES: recorders and VTK write files. HEAP: malloc and free are the default allocator; without it each
- * model needs its own. */
+/* The abilities of this build. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal to
+ * rounding. FILES: recorders and VTK write files. HEAP: malloc and free are the default allocator; without it each model needs
+ * its own. */
 enum { DMB_HAS_LAPACK = 0, DMB_HAS_FILES = 1, DMB_HAS_HEAP = 2 };
-/* 1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there.
- * DMB_ERR_VALUE: none of the above. Thread-safe. */
+/* 1: yes, 0: no; a library that is loaded when needed is loaded by this call. DMB_ERR_VALUE: none of the above. Thread-safe. */
 DMB_API int32_t dmb_has(int32_t what);
 /* One line: version, and where eigenproblems, files and memory come from. Never NULL. */
 DMB_API const char *dmb_build_info(void);
 
 /* ---- Status ------------------------------------------------------------------------------------------------------
- * Every function that can fail returns an int32_t: 0 done, > 0 done with a note, < 0 refused or failed with
- * nothing changed. dmb_last_error states the part, the field, the value and the bound. */
+ * Every function that can fail returns an int32_t: 0 done, > 0 done with a note, < 0 refused or failed with nothing changed.
+ * dmb_last_error states the part, the field, the value and the bound. */
 /* clang-format off */
 #define DMB_STATUS_LIST(X)                                                                                            \
     X(DMB_OK, 0, "done")                                                                                              \
@@ -89,48 +86,52 @@ enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
 DMB_API const char *dmb_status_name(int32_t status);
 DMB_API const char *dmb_status_text(int32_t status);
 
+/* ---- Values that mean "not given" ---------------------------------------------------------------------------------
+ *   DMB_NONE       no number of a part, pipe, section or component (uint32_t)
+ *   DMB_COMBINED   all excitations together (dmb_response_transfer)
+ *   {0, 0}         of an id no part: the first string, the ground or none, as the field says
+ *   DMB_FREE_NONE  the empty set of components; 0 is refused
+ *   NULL           default options, no callback, no table, no report
+ *   DMB_NOT_GIVEN  of numbers >= 0: as described elsewhere (the wall, the fluid outside, the pipes), as the field says
+ *   DMB_UNLIMITED  no limit, stop or end; -DMB_UNLIMITED at the low side
+ *   0              of numbers > 0: off, or computed from others, as the field says
+ *   NaN            of an input or a drive its time function; of a result: it is not there
+ *   infinity       of a result: nothing limits it */
+#define DMB_NONE UINT32_MAX
+#define DMB_NOT_GIVEN (-1)
+#define DMB_UNLIMITED 1e30
+
 /* ---- Names of parts and places -----------------------------------------------------------------------------------
  * Structs without a struct_size are frozen: their size and members stay as they are in all of a series of versions. */
-/* Frozen. A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model
- * it belongs to. {0, 0} names nothing. */
+/* Frozen. Given out by the dmb_model_add_ functions and checked at every use: kind, index and model. {0, 0} names nothing. */
 typedef struct dmb_id {
-    uint32_t index;      /* [-] kind in the upper 8 bits, number of the part within its kind in the lower 24 */
+    uint32_t index; /* [-] kind in the upper 8 bits, number of the part within its kind in the lower 24 */
     uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
 } dmb_id;
-
 /* 1 if both name the same part of the same model, or nothing. */
 static inline int dmb_id_equal(dmb_id a, dmb_id b)
 {
     return a.index == b.index && a.generation == b.generation;
 }
-
-/* Where the number of a part, pipe or place is required: none of them. */
-#define DMB_NONE UINT32_MAX
-
 /* Frozen. A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
 typedef struct dmb_place {
-    dmb_id part;       /* a string, a body or a bit */
-    uint32_t pipe;     /* [-] pipe of the string, 0 at the rig end; 0 for a body */
+    dmb_id part; /* a string, a body or a bit */
+    uint32_t pipe; /* [-] pipe of the string, 0 at the rig end; 0 for a body */
     uint32_t reserved; /* [-] 0 */
-    double fraction;   /* [-] 0 at the rig end of the pipe .. 1 at its far end; 0 for a body */
+    double fraction; /* [-] 0 at the rig end of the pipe .. 1 at its far end; 0 for a body */
 } dmb_place;
 /* The place at `fraction` of a pipe of a string; of a body: pipe 0, fraction 0. Nothing is checked here. */
 static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 {
-    dmb_place place;
-    place.part = part;
-    place.pipe = pipe;
-    place.reserved = 0;
-    place.fraction = fraction;
+    dmb_place place = {part, pipe, 0, fraction};
     return place;
 }
 
-/* ---- Structs that cross the border ------------------------------------------------------------------------------
- * Each begins with struct_size and is filled by its T_init, which writes no more than the given size: a caller
- * compiled against an older header still works. T_default() returns a filled struct by value. T_init returns DMB_OK,
- * DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, not a multiple of 8, or more than 1024
- * bytes above the size in this library). A longer struct than the library's is accepted if the additional bytes
- * are zero. Pure and thread-safe. */
+/* ---- Structs that cross the border --------------------------------------------------------------------------------
+ * Each begins with struct_size and is filled by its T_init, which writes no more than the given size: a caller compiled against
+ * an older header still works. T_default() returns a filled struct by value. A longer struct than the library's is accepted if
+ * the additional bytes are zero. T_init is pure; errors: DMB_ERR_NULL, _STRUCT_SIZE (size below that of the first release, not a
+ * multiple of 8, or more than 1024 bytes above the size in this library). */
 #define DMB_SIZED_STRUCT(T)                          \
     DMB_API int32_t T##_init(T *out, uint32_t size); \
     static inline T T##_default(void)                \
@@ -142,41 +143,37 @@ static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 
 /* ---- Memory and log ---------------------------------------------------------------------------------------------- */
 typedef struct dmb_allocator {
-    uint32_t struct_size;
-    uint32_t reserved;
-    void *context;                                                              /* handed to both functions */
-    void *(*allocate)(void *context, size_t size, size_t alignment);            /* [byte]; NULL on failure */
+    uint32_t struct_size, reserved;
+    void *context; /* handed to both functions */
+    void *(*allocate)(void *context, size_t size, size_t alignment); /* [byte]; NULL on failure */
     void (*release)(void *context, void *block, size_t size, size_t alignment); /* a block of allocate, same sizes */
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
-/* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory:
- * 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit,
- * neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release; *allocator may be
- * uninitialised. Calling it again on the same memory forgets all that was given out. Errors: DMB_ERR_NULL,
- * DMB_ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool
- * has no room left, calls that need memory fail with DMB_ERR_NO_MEMORY and change nothing. */
+/* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes
+ * of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps
+ * join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given
+ * out. Errors, which leave *allocator unchanged: DMB_ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses). */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
-/* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the
- * same calls. 0 for any other allocator. Cannot fail. */
+/* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0
+ * for any other allocator. Cannot fail. */
 DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
 
 /* ---- Errors as data ---------------------------------------------------------------------------------------------- */
-/* dmb_last_error gives the last call of this thread that failed, on any object; a call that succeeds leaves it
- * unchanged. dmb_model_message and dmb_sim_message give the message alone. */
+/* dmb_last_error gives the last call of this thread that failed, on any object; a call that succeeds leaves it unchanged.
+ * dmb_model_message and dmb_sim_message give the message alone. */
 typedef struct dmb_error {
     uint32_t struct_size;
-    int32_t status;          /* DMB_ERR_...; 0: no call of this thread has failed */
-    uint32_t number;         /* [-] of the part among those of its kind; DMB_NONE: it has none */
-    uint32_t component;      /* [-] of a field that is an array; DMB_NONE: it is none */
+    int32_t status; /* DMB_ERR_...; 0: no call of this thread has failed */
+    uint32_t number, component; /* [-] of the part among those of its kind, of a field that is an array; DMB_NONE: it has none */
     double value, low, high; /* [unit of the field] refused value and its range; NaN: no number, no range */
-    char part[128];          /* "string 0 (main), pipe 12 (collars)", as in the message; all texts end with 0 */
+    char part[128]; /* "string 0 (main), pipe 12 (collars)", as in the message; all texts end with 0 */
     char kind[32], name[24]; /* "pipe", "collars": of the innermost part; "" as all that a failure does not have */
-    char field[64];          /* "outer_diameter" */
-    char given[96];          /* the value as text: "0.07", "(1, 2, 3)" */
-    char bound[256];         /* "be finite and > inner_diameter (0.08)"; a bound after > or < is not in the range */
-    char advice[384];        /* the remedy */
-    char message[512];       /* all of it in one sentence */
+    char field[64]; /* "outer_diameter" */
+    char given[96]; /* the value as text: "0.07", "(1, 2, 3)" */
+    char bound[256]; /* "be finite and > inner_diameter (0.08)"; a bound after > or < is not in the range */
+    char advice[384]; /* the remedy */
+    char message[512]; /* all of it in one sentence */
 } dmb_error;
 DMB_SIZED_STRUCT(dmb_error)
 /* The last failing call of this thread. Errors: DMB_ERR_NULL, DMB_ERR_STRUCT_SIZE. */
@@ -187,6 +184,5 @@ typedef void (*dmb_error_fn)(void *context, const dmb_error *error);
 enum { DMB_LOG_ERROR = 0, DMB_LOG_WARNING = 1, DMB_LOG_INFO = 2 };
 /* Called with a line of text, never during a step. The text lives only for the call. */
 typedef void (*dmb_log_fn)(void *context, int32_t level, const char *text);
-
 DMB_C_END
 #endif

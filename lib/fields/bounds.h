@@ -36,14 +36,14 @@
 #define DMB_NUMBER_MAX 1e6
 #define DMB_RATIO_MIN 1e-12 /* [-, m/rad, rad/m] of coupled coordinates */
 #define DMB_RATIO_MAX 1e12
-#define DMB_STOP_MAX 1e30          /* [m, rad] of stops; as far away as that there is none */
-#define DMB_FORCE_MAX 1e30         /* [N, N m, unit of a time function] */
-#define DMB_ACTUATOR_TIME_MIN 1e-6 /* [s] of delays and lags of actuators */
-#define DMB_DELAY_MAX 1e4          /* [s] */
-#define DMB_SLIP_MAX 1e6           /* [m/s, rad/s] speeds of analyses */
-#define DMB_FREQUENCY_MAX 1e9      /* [Hz] its square times a mass is far from overflow */
-#define DMB_FRICTION_MAX 10.0      /* [-] coefficient of torque and drag */
-#define DMB_OPTION_MAX 1e300       /* of options without another bound */
+#define DMB_STOP_MAX DMB_UNLIMITED  /* [m, rad] of stops */
+#define DMB_FORCE_MAX DMB_UNLIMITED /* [N, N m, unit of a time function] */
+#define DMB_ACTUATOR_TIME_MIN 1e-6  /* [s] of delays and lags of actuators */
+#define DMB_DELAY_MAX 1e4           /* [s] */
+#define DMB_SLIP_MAX 1e6            /* [m/s, rad/s] speeds of analyses */
+#define DMB_FREQUENCY_MAX 1e9       /* [Hz] its square times a mass is far from overflow */
+#define DMB_FRICTION_MAX 10.0       /* [-] coefficient of torque and drag */
+#define DMB_OPTION_MAX 1e300        /* of options without another bound */
 
 enum {
     DMB_PIPE_ELEMENTS_MAX = 1024, /* of one pipe */

@@ -32,7 +32,7 @@ typedef enum dmb_field_bound {
     DMB_BOUND_BETWEEN, /* low < value < high */
     DMB_BOUND_ABOVE,   /* low < value, finite */
     DMB_BOUND_ZERO_OR, /* 0 for "by default", or low <= value <= high */
-    DMB_BOUND_MINUS_ONE_OR,
+    DMB_BOUND_NOT_GIVEN_OR,
     DMB_BOUND_BITS,   /* made of the bits of high */
     DMB_BOUND_SET,    /* set of components, DMB_FREE_... */
     DMB_BOUND_MOTION, /* the same, closed under motion */

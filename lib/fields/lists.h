@@ -10,7 +10,7 @@
  * checked first, other fields in the order of the rows, relations between fields after them (model/describe_*.c).
  * `bound` is one of
  *
- *     WITHIN(low, high)         BETWEEN(low, high), ends excluded   ZERO_OR(low, high)    MINUS_ONE_OR(low, high)
+ *     WITHIN(low, high)         BETWEEN(low, high), ends excluded   ZERO_OR(low, high)    NOT_GIVEN_OR(low, high)
  *     ABOVE(low), finite
  *     BITS(mask)                SET of components                   MOTION, a closed one  TEXT, a name
  *     PART(kind)                PART_OR_NONE(kind)                  PLACE                 GROUND_OR_PLACE
@@ -26,8 +26,8 @@
     FIELD(T, 3, lateral_damping, "N s/m2", WITHIN(0.0, DMB_DAMPING_MAX), 0.0) \
     FIELD(T, 4, axial_damping, "N s/m2", WITHIN(0.0, DMB_DAMPING_MAX), 0.0) \
     FIELD(T, 5, torsional_damping, "N s", WITHIN(0.0, DMB_DAMPING_MAX), 0.0) \
-    FIELD(T, 6, inner_density, "kg/m3", MINUS_ONE_OR(0.0, DMB_DENSITY_MAX), -1.0) \
-    FIELD(T, 7, added_mass, "-", MINUS_ONE_OR(0.0, DMB_NUMBER_MAX), 0.0) \
+    FIELD(T, 6, inner_density, "kg/m3", NOT_GIVEN_OR(0.0, DMB_DENSITY_MAX), DMB_NOT_GIVEN) \
+    FIELD(T, 7, added_mass, "-", NOT_GIVEN_OR(0.0, DMB_NUMBER_MAX), 0.0) \
     FIELD(T, 8, flow_rate, "m3/s", WITHIN(0.0, DMB_FLOW_MAX), 0.0) \
     FIELD(T, 9, consistency, "Pa s", ZERO_OR(DMB_CONSISTENCY_MIN, DMB_CONSISTENCY_MAX), 0.0) \
     FIELD(T, 10, flow_exponent, "-", WITHIN(DMB_FLOW_EXPONENT_MIN, DMB_FLOW_EXPONENT_MAX), 1.0) \
@@ -90,12 +90,12 @@
     FIELD(T, 1, shape, "", WITHIN(DMB_HOLE_STEP, DMB_HOLE_LINE), DMB_HOLE_STEP) \
     FIELD(T, 2, depth, "m", WITHIN(-DMB_POSITION_MAX, DMB_POSITION_MAX), 0.0) \
     FIELD(T, 3, transition, "m", WITHIN(DMB_LENGTH_MIN, DMB_LENGTH_MAX), 0.1) \
-    FIELD(T, 4, diameter, "m", MINUS_ONE_OR(DMB_LENGTH_MIN, DMB_LENGTH_MAX), -1.0) \
-    FIELD(T, 5, stiffness, "N/m^(n+1)", MINUS_ONE_OR(DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX), -1.0) \
-    FIELD(T, 6, restitution, "-", MINUS_ONE_OR(0.0, 1.0), -1.0) \
-    FIELD(T, 7, damping, "N s/m2", MINUS_ONE_OR(0.0, DMB_DAMPING_MAX), -1.0) \
-    FIELD(T, 8, mu_static, "-", MINUS_ONE_OR(0.0, DMB_NUMBER_MAX), -1.0) \
-    FIELD(T, 9, mu_dynamic, "-", MINUS_ONE_OR(0.0, DMB_NUMBER_MAX), -1.0) \
+    FIELD(T, 4, diameter, "m", NOT_GIVEN_OR(DMB_LENGTH_MIN, DMB_LENGTH_MAX), DMB_NOT_GIVEN) \
+    FIELD(T, 5, stiffness, "N/m^(n+1)", NOT_GIVEN_OR(DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX), DMB_NOT_GIVEN) \
+    FIELD(T, 6, restitution, "-", NOT_GIVEN_OR(0.0, 1.0), DMB_NOT_GIVEN) \
+    FIELD(T, 7, damping, "N s/m2", NOT_GIVEN_OR(0.0, DMB_DAMPING_MAX), DMB_NOT_GIVEN) \
+    FIELD(T, 8, mu_static, "-", NOT_GIVEN_OR(0.0, DMB_NUMBER_MAX), DMB_NOT_GIVEN) \
+    FIELD(T, 9, mu_dynamic, "-", NOT_GIVEN_OR(0.0, DMB_NUMBER_MAX), DMB_NOT_GIVEN) \
     FIELD(T, 10, strength, "Pa", WITHIN(0.0, DMB_MODULUS_MAX), 0.0) \
     FIELD(T, 11, name, "", TEXT, "")
 
@@ -151,7 +151,7 @@
     FIELD(T, 7, inertia, "kg m2", ZERO_OR(DMB_INERTIA_MIN, DMB_INERTIA_MAX), {0.0}) \
     FIELD(T, 8, density, "kg/m3", WITHIN(DMB_DENSITY_MIN, DMB_DENSITY_MAX), 7850.0) \
     FIELD(T, 9, name, "", TEXT, "") \
-    FIELD(T, 10, added_mass, "kg", MINUS_ONE_OR(0.0, DMB_MASS_MAX), {0.0, -1.0})
+    FIELD(T, 10, added_mass, "kg", NOT_GIVEN_OR(0.0, DMB_MASS_MAX), {0.0, DMB_NOT_GIVEN})
 
 #define DMB_BODY_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, attach, "", WITHIN(DMB_ATTACH_NONE, DMB_ATTACH_END), DMB_ATTACH_NONE) \
@@ -215,8 +215,9 @@
     FIELD(T, 17, friction, "N, N m", WITHIN(0.0, DMB_FORCE_MAX), {0.0}) \
     FIELD(T, 18, friction_speed, "m/s, rad/s", WITHIN(DMB_SPEED_MIN, DMB_SPEED_MAX), 1e-3) \
     FIELD(T, 19, stop_low, "m, rad", WITHIN(-DMB_STOP_MAX, DMB_STOP_MAX), \
-          {-1e30, -1e30, -1e30, -1e30, -1e30, -1e30}) \
-    FIELD(T, 20, stop_high, "m, rad", WITHIN(-DMB_STOP_MAX, DMB_STOP_MAX), {1e30, 1e30, 1e30, 1e30, 1e30, 1e30}) \
+          {-DMB_UNLIMITED, -DMB_UNLIMITED, -DMB_UNLIMITED, -DMB_UNLIMITED, -DMB_UNLIMITED, -DMB_UNLIMITED}) \
+    FIELD(T, 20, stop_high, "m, rad", WITHIN(-DMB_STOP_MAX, DMB_STOP_MAX), \
+          {DMB_UNLIMITED, DMB_UNLIMITED, DMB_UNLIMITED, DMB_UNLIMITED, DMB_UNLIMITED, DMB_UNLIMITED}) \
     FIELD(T, 21, stop_stiffness, "N/m, N m/rad", WITHIN(DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX), 1e6) \
     FIELD(T, 22, stop_damping, "N s/m, N m s", WITHIN(0.0, DMB_DAMPING_MAX), 0.0) \
     FIELD(T, 23, initial_mask, "-", SET, DMB_FREE_NONE) \
@@ -253,8 +254,8 @@
     FIELD(T, 5, excitation, "", PART_OR_NONE(DMB_PART_TIME_FUNCTION), {0, 0}) \
     FIELD(T, 6, gain, "N s/m, N m s", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
     FIELD(T, 7, integral_gain, "N/m, N m", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
-    FIELD(T, 8, limit_low, "N, N m", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), -1e30) \
-    FIELD(T, 9, limit_high, "N, N m", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 1e30) \
+    FIELD(T, 8, limit_low, "N, N m", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), -DMB_UNLIMITED) \
+    FIELD(T, 9, limit_high, "N, N m", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), DMB_UNLIMITED) \
     FIELD(T, 10, name, "", TEXT, "") \
     FIELD(T, 11, delay, "s", ZERO_OR(DMB_ACTUATOR_TIME_MIN, DMB_DELAY_MAX), 0.0) \
     FIELD(T, 12, force_rate, "N/s, N m/s", ZERO_OR(DMB_SPEED_MIN, DMB_FORCE_MAX), 0.0) \
@@ -287,7 +288,7 @@
     FIELD(T, 4, place_b, "", GROUND_OR_PLACE, {{0, 0}, 0, 0, 0.0}) \
     FIELD(T, 5, offset_a, "m", WITHIN(-DMB_POSITION_MAX, DMB_POSITION_MAX), {0.0}) \
     FIELD(T, 6, offset_b, "m", WITHIN(-DMB_POSITION_MAX, DMB_POSITION_MAX), {0.0}) \
-    FIELD(T, 7, free_length, "m", MINUS_ONE_OR(0.0, DMB_LENGTH_MAX), -1.0) \
+    FIELD(T, 7, free_length, "m", NOT_GIVEN_OR(0.0, DMB_LENGTH_MAX), DMB_NOT_GIVEN) \
     FIELD(T, 8, stiffness, "N/m", WITHIN(0.0, DMB_STIFFNESS_MAX), 0.0) \
     FIELD(T, 9, damping, "N s/m", WITHIN(0.0, DMB_DAMPING_MAX), 0.0) \
     FIELD(T, 10, preload, "N", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 0.0) \
@@ -304,8 +305,8 @@
     ARRAY(T, 5, place, place_count, 1, "", ANY, {{{0, 0}, 0, 0, 0.0}}) \
     ARRAY(T, 6, offset, place_count, 3, "m", ANY, {0.0}) \
     ARRAY(T, 7, component, place_count, 1, "", ANY, {0}) \
-    FIELD(T, 8, pose_step, "m, rad; m/s, rad/s", WITHIN(1e-12, 1.0), 1e-5) \
-    FIELD(T, 9, speed_step, "m, rad; m/s, rad/s", WITHIN(1e-12, 1.0), 1e-5) \
+    FIELD(T, 8, pose_step, "m, rad", WITHIN(1e-12, 1.0), 1e-5) \
+    FIELD(T, 9, speed_step, "m/s, rad/s", WITHIN(1e-12, 1.0), 1e-5) \
     FIELD(T, 10, callback, "", POINTER, NULL) \
     FIELD(T, 11, callback_context, "", ANY, NULL) \
     FIELD(T, 12, state_count, "-", WITHIN(0, 65536), 0) \
@@ -335,8 +336,8 @@
     FIELD(T, 2, name, "", TEXT, "") \
     FIELD(T, 3, part, "", ANY, {0, 0}) \
     FIELD(T, 4, initial, "unit of the target", ANY, (double)NAN) \
-    FIELD(T, 5, low, "unit of the target", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), -1e30) \
-    FIELD(T, 6, high, "unit of the target", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 1e30) \
+    FIELD(T, 5, low, "unit of the target", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), -DMB_UNLIMITED) \
+    FIELD(T, 6, high, "unit of the target", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), DMB_UNLIMITED) \
     FIELD(T, 7, rate_limit, "unit/s", ZERO_OR(DMB_SPEED_MIN, DMB_FORCE_MAX), 0.0) \
     FIELD(T, 8, slope_limit, "unit/s2", ZERO_OR(DMB_SPEED_MIN, DMB_FORCE_MAX), 0.0) \
     FIELD(T, 9, outside, "", WITHIN(DMB_OUTSIDE_REFUSED, DMB_OUTSIDE_CLAMPED), DMB_OUTSIDE_REFUSED)
@@ -351,7 +352,7 @@
 
 #define DMB_COMPILE_OPTIONS_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, features, "", BITS(DMB_FEATURE_ALL), DMB_FEATURE_ALL) \
-    FIELD(T, 2, pipe_kind, "", WITHIN(-1, DMB_PIPE_RIGID), -1)
+    FIELD(T, 2, pipe_kind, "", WITHIN(DMB_NOT_GIVEN, DMB_PIPE_RIGID), DMB_NOT_GIVEN)
 
 /* X(number, struct, part in messages, kind of its id, size in the first release, fields): numbers never change. */
 #define DMB_DESCRIBED(X) \

@@ -58,9 +58,9 @@
     FIELD(T, 6, component, "", WITHIN(DMB_X, DMB_Z), DMB_X) \
     FIELD(T, 7, branch, "", WITHIN(-1, 1), 0) \
     FIELD(T, 8, factor_end, "unit of the factor", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 1.0) \
-    FIELD(T, 9, displacement_end, "m", WITHIN(-DMB_STOP_MAX, DMB_STOP_MAX), 1e30) \
+    FIELD(T, 9, displacement_end, "m", WITHIN(-DMB_STOP_MAX, DMB_STOP_MAX), DMB_UNLIMITED) \
     FIELD(T, 10, first_step, "unit of the factor", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
-    FIELD(T, 11, step_max, "m", ABOVE(0.0), 1e30) \
+    FIELD(T, 11, step_max, "m", ABOVE(0.0), DMB_UNLIMITED) \
     FIELD(T, 12, branch_size, "m", WITHIN(0.0, DMB_LENGTH_MAX), 0.0) \
     FIELD(T, 13, tolerance, "-", WITHIN(1e-15, 0.1), 1e-10) \
     FIELD(T, 14, slip_axial, "m/s", WITHIN(-DMB_SLIP_MAX, DMB_SLIP_MAX), 0.0) \
@@ -137,7 +137,7 @@
 #define DMB_TORQUE_DRAG_OPTIONS_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, post_buckling, "", WITHIN(0, 1), 1) \
     FIELD(T, 2, string, "", ANY, {0, 0}) \
-    FIELD(T, 3, friction, "-", MINUS_ONE_OR(0.0, DMB_FRICTION_MAX), -1.0) \
+    FIELD(T, 3, friction, "-", NOT_GIVEN_OR(0.0, DMB_FRICTION_MAX), DMB_NOT_GIVEN) \
     FIELD(T, 4, depths, "m", ANY, NULL) \
     FIELD(T, 5, depth_count, "-", WITHIN(1, 1 << 20), 1) \
     FIELD(T, 6, friction_by_depth, "", WITHIN(0, 1), 0)

@@ -36,7 +36,7 @@
 #define DMB_MUST_ABOVE(low) DMB_BOUND_ABOVE, low, (double)INFINITY
 #define DMB_MUST_BETWEEN(low, high) DMB_BOUND_BETWEEN, low, high
 #define DMB_MUST_ZERO_OR(low, high) DMB_BOUND_ZERO_OR, low, high
-#define DMB_MUST_MINUS_ONE_OR(low, high) DMB_BOUND_MINUS_ONE_OR, low, high
+#define DMB_MUST_NOT_GIVEN_OR(low, high) DMB_BOUND_NOT_GIVEN_OR, low, high
 #define DMB_MUST_BITS(mask) DMB_BOUND_BITS, 0.0, mask
 #define DMB_MUST_SET DMB_BOUND_SET, 1.0, DMB_FREE_ALL | DMB_FREE_NONE
 #define DMB_MUST_MOTION DMB_BOUND_MOTION, 1.0, DMB_FREE_ALL | DMB_FREE_NONE

@@ -10,7 +10,7 @@
 
 /* [units of a time function, a constraint] Largest absolute value that a callback may return; the bound of numbers of a
  * model. */
-#define DMB_CALLBACK_MAX 1e30
+#define DMB_CALLBACK_MAX DMB_UNLIMITED
 
 typedef struct dmb_time_function {
     const dmb_segment *segments; /* full-size segments, checked by the model, shape (count); the callback_context of

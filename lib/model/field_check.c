@@ -24,7 +24,7 @@ static bool holds(const dmb_def_field *field, double value)
     case DMB_BOUND_ABOVE: return value > field->low && dmb_is_finite(value);
     case DMB_BOUND_BITS: return ((uint32_t)(int32_t)value & ~(uint32_t)field->high) == 0;
     case DMB_BOUND_ZERO_OR: return is_zero(value) || is_within(value, field->low, field->high);
-    case DMB_BOUND_MINUS_ONE_OR: return is_within(value, -1.0, -1.0) || is_within(value, field->low, field->high);
+    case DMB_BOUND_NOT_GIVEN_OR: return value == DMB_NOT_GIVEN || is_within(value, field->low, field->high);
     default: return is_within(value, field->low, field->high);
     }
 }
@@ -33,7 +33,7 @@ static bool holds(const dmb_def_field *field, double value)
 static dmb_check_bound bound_of(const dmb_def_field *field, dmb_message *text)
 {
     const char * or = field->bound == DMB_BOUND_ZERO_OR        ? "0 or "
-                      : field->bound == DMB_BOUND_MINUS_ONE_OR ? "-1 or "
+                      : field->bound == DMB_BOUND_NOT_GIVEN_OR ? "-1 or "
                                                                : "";
     dmb_check_bound bound = {text->text, field->low, field->high};
     if (field->bound == DMB_BOUND_FINITE) {

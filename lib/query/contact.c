@@ -92,7 +92,7 @@ int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
 
 /* ---- The hole ---------------------------------------------------------------------------------------------------- */
 
-DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED, .section = -1})
+DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED, .section = DMB_NONE})
 
 #define VERTICAL 1e-9 /* [-] closer to the vertical the azimuth is undefined */
 
@@ -156,9 +156,8 @@ static void read_wall(const dmb_model *model, const dmb_hole *hole, double depth
     point->mu_static = v[DMB_WALL_MU_STATIC];
     point->mu_dynamic = v[DMB_WALL_MU_DYNAMIC];
     point->strength = v[DMB_WALL_STRENGTH];
-    point->section = -1;
+    point->section = section;
     if (section == DMB_NONE) return;
-    point->section = (int32_t)section;
     memcpy(point->section_name, DMB_LIST_AT(const dmb_hole_section, model->sections, section)->name,
            sizeof point->section_name);
 }

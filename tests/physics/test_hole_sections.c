@@ -329,9 +329,9 @@ static void what_the_hole_tells(void **state)
     (void)string_in(&scene, sections, 3, 1);
     static const struct {
         double depth, diameter, mu;
-        int32_t section;
-    } cases[] = {{-3.0, 0.094, 0.3, -1}, {4.95, 0.094, 0.3, -1}, {5.0, 0.107, 0.3, 0}, {5.05, 0.12, 0.3, 0},
-                 {15.0, 0.12, 0.3, 0},   {22.5, 0.117, 0.25, 1}, {26.0, 0.14, 0.3, 2}, {1e4, 0.14, 0.3, 2}};
+        uint32_t section;
+    } cases[] = {{-3.0, 0.094, 0.3, DMB_NONE}, {4.95, 0.094, 0.3, DMB_NONE}, {5.0, 0.107, 0.3, 0}, {5.05, 0.12, 0.3, 0},
+                 {15.0, 0.12, 0.3, 0},         {22.5, 0.117, 0.25, 1},       {26.0, 0.14, 0.3, 2}, {1e4, 0.14, 0.3, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         assert_int_equal(dmb_query_hole(scene.model, cases[i].depth, &at), DMB_OK);
         CHECK_RELATIVE(at.diameter, cases[i].diameter, 1e-12);

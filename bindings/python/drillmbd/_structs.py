@@ -13,7 +13,7 @@ from ._record import (ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, R
 
 
 class Id(IdPart, Record):
-    c_name, about = "dmb_id", "Frozen. A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it belongs to. {0, 0} names nothing."
+    c_name, about = "dmb_id", "Frozen. Given out by the dmb_model_add_ functions and checked at every use: kind, index and model. {0, 0} names nothing."
     index: int
     generation: int
     _fields_: ClassVar[Any] = [
@@ -123,8 +123,8 @@ class ErrorStruct(Sized):
     ]
     field_docs = {
         "status": ("", "ERR_...; 0: no call of this thread has failed"),
-        "number": ("-", "of the part among those of its kind; NONE: it has none"),
-        "component": ("-", "of a field that is an array; NONE: it is none"),
+        "number": ("-", "of the part among those of its kind, of a field that is an array; NONE: it has none"),
+        "component": ("-", "of the part among those of its kind, of a field that is an array; NONE: it has none"),
         "value": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "low": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "high": ("unit of the field", "refused value and its range; NaN: no number, no range"),
@@ -176,19 +176,19 @@ class EnvironmentDef(Sized):
         ("flow_eccentricity", c_double),
     ]
     field_docs = {
-        "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
+        "gravity": ("m/s2", "world frame, default (0, 0, -9.81)"),
         "fluid_density": ("kg/m3", "inside and outside of pipes and tool joints, for buoyancy; default 0"),
-        "lateral_damping": ("N s/m2", "external damping force per metre of pipe and m/s of sideways speed; default 0"),
-        "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
+        "lateral_damping": ("N s/m2", "external, per metre of pipe, against speed sideways, along; default 0"),
+        "axial_damping": ("N s/m2", "external, per metre of pipe, against speed sideways, along; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
-        "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, stabilisers have that of the mud they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
+        "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; NOT_GIVEN (default): as outside"),
+        "added_mass": ("-", "of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; NOT_GIVEN: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, and tool joints are spread over their pipe; stabilisers: of the mud they displace beyond the pipe. 0 (default): no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
         "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
         "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
-        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it"),
+        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag"),
     }
 
 
@@ -225,15 +225,15 @@ class FrictionAt(Record):
     ]
     field_docs = {
         "normal_force": ("N", ">= 0"),
-        "slip": ("m/s", "of the pipe over the wall"),
-        "slip_before": ("m/s", "at the last accepted time"),
+        "slip": ("m/s", "of the pipe over the wall; at the last accepted time"),
+        "slip_before": ("m/s", "of the pipe over the wall; at the last accepted time"),
         "mu_static": ("-", "of the wall or section, times inputs; a law may leave them aside"),
         "mu_dynamic": ("-", "of the wall or section, times inputs; a law may leave them aside"),
     }
 
 
 class HoleSection(Sized):
-    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws and all other values are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold; a field left at NOT_GIVEN is that of dmb_wall_def, as are the laws and all other values everywhere. Values change smoothly within `transition` (eq:hole.section): where its diameter changes the wall pushes along the axis."
     struct_size: int
     shape: int
     depth: float
@@ -265,14 +265,14 @@ class HoleSection(Sized):
     field_docs = {
         "shape": ("", "HOLE_...; default HOLE_STEP; the last one must be a step"),
         "depth": ("m", "measured depth where it begins; strictly increasing; default 0"),
-        "transition": ("m", "> 0; those of neighbours may not overlap, nor may the radius change by more than 1 m/m; default 0.1"),
-        "diameter": ("m", "> 0; default -1"),
-        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default -1"),
-        "restitution": ("-", "0 .. 1 (> 0 for FLORES); default -1"),
-        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1"),
-        "mu_static": ("-", ">= mu_dynamic for STRIBECK and BRISTLE; default -1"),
-        "mu_dynamic": ("-", ">= 0; default -1"),
-        "strength": ("Pa", "unconfined compressive strength of the wall, >= 0; returned by dmb_query_hole, no force depends on it; default 0"),
+        "transition": ("m", "> 0; neighbours may not overlap, nor the radius change by more than 1 m/m; default 0.1"),
+        "diameter": ("m", "> 0; default NOT_GIVEN"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default NOT_GIVEN"),
+        "restitution": ("-", "0 .. 1 (> 0 for FLORES); default NOT_GIVEN"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default NOT_GIVEN"),
+        "mu_static": ("-", ">= 0, mu_static >= mu_dynamic for STRIBECK and BRISTLE; default NOT_GIVEN"),
+        "mu_dynamic": ("-", ">= 0, mu_static >= mu_dynamic for STRIBECK and BRISTLE; default NOT_GIVEN"),
+        "strength": ("Pa", "unconfined compressive strength, >= 0, for dmb_query_hole; no force depends on it; default 0"),
         "name": ("", "returned by dmb_query_hole; default \"\""),
     }
 
@@ -306,18 +306,18 @@ class StringDef(Sized):
     field_docs = {
         "follows_hole": ("", "1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1"),
         "start_depth": ("m", "measured depth of the rig end; default 0"),
-        "offset": ("m", "sideways shift from the hole's axis along its y and z axes; default 0, shape (2)"),
-        "position": ("m", "rig end, world frame, where follows_hole is 0 or there is no hole; shape (3)"),
-        "rotation": ("rad", "rotation vector of the rig end's frame, as above; shape (3)"),
-        "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0; shape (6)"),
-        "start_free": ("-", "set of free components at the rig end; default FREE_CYLINDRICAL"),
-        "end_free": ("-", "the same at the far end; default FREE_ALL"),
+        "offset": ("m", "sideways shift from the hole's axis along its y and z axes; default 0"),
+        "position": ("m", "rig end and rotation vector of its frame, world frame, without a hole"),
+        "rotation": ("rad", "rig end and rotation vector of its frame, world frame, without a hole"),
+        "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0"),
+        "start_free": ("-", "free at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
+        "end_free": ("-", "free at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
     }
 
 
 class Motor(MotorPart, Sized):
-    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both sections, equal and opposite, and its power is that of a drive. A line: T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985). A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed. Below w = 0 it gives its torque at stall."
+    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below). Its torque T of the relative speed w is a line to w0 = 2 pi flow/displacement (eq:drive.motor), or a table as measured at table_flow and table_pressure, scaled by flow and pressure; w0 is its last speed. Below w = 0 it gives its torque at stall."
     struct_size: int
     brakes: int
     stall_torque: float
@@ -350,14 +350,14 @@ class Motor(MotorPart, Sized):
     ]
     field_docs = {
         "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
-        "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
-        "displacement": ("m3", "of mud a revolution, > 0"),
+        "stall_torque": ("N m", "at w = 0, and the most it gives; of mud a revolution; > 0"),
+        "displacement": ("m3", "at w = 0, and the most it gives; of mud a revolution; > 0"),
         "flow": ("m3/s", "through the motor, > 0"),
-        "pressure": ("Pa", "drop across it at stall, > 0 instead of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
+        "pressure": ("Pa", "drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure"),
         "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
-        "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow"),
-        "table_pressure": ("Pa", "of the table, > 0; 0 (default): pressure"),
-        "table_count": ("-", "0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are 0 then"),
+        "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow, pressure"),
+        "table_pressure": ("Pa", "of the table, > 0; 0 (default): flow, pressure"),
+        "table_count": ("-", "0 (default): a line; 2 .. 15: a table, without stall_torque and displacement"),
         "table_speed": ("rad/s", "strictly increasing from 0, shape (table_count)"),
         "table_torque": ("N m", ">= 0, > 0 at the first, 0 at the last, shape (table_count)"),
     }
@@ -379,7 +379,7 @@ class CompileOptions(Sized):
     ]
     field_docs = {
         "features": ("", "mask of FEATURE_...; others are not compiled; default FEATURE_ALL"),
-        "pipe_kind": ("", "PIPE_... for every pipe, or -1 (default): as described"),
+        "pipe_kind": ("", "PIPE_... for every pipe, or NOT_GIVEN (default)"),
     }
 
 
@@ -429,20 +429,20 @@ class ModelInfo(Sized):
         "strings": ("-", ""),
         "pipes": ("-", ""),
         "rigid_bodies": ("-", "merged ones count once"),
-        "nodes": ("-", ""),
-        "elements": ("-", "flexible and axial-torsional"),
-        "contact_points": ("-", ""),
-        "degrees_of_freedom": ("-", "free velocity components, prescribed ones not counted"),
-        "prescribed": ("-", "components moved by drives"),
-        "structural_joints": ("-", "fixed joints that cost no unknowns"),
-        "model_bytes": ("byte", "held by the compiled scene"),
-        "sim_bytes": ("byte", "of one sim with default options"),
-        "mass": ("kg", ""),
-        "length": ("m", "of all strings"),
-        "joints": ("-", "described joints"),
-        "constraint_rows": ("-", "equations of joints, couplings, callbacks and joint drives, active at time 0"),
-        "clusters": ("-", "groups of parts that joints connect directly"),
-        "reduced_nodes": ("-", "nodes solved by the sparse solver; the others by the block-tridiagonal one"),
+        "nodes": ("-", "nodes; flexible and axial-torsional elements"),
+        "elements": ("-", "nodes; flexible and axial-torsional elements"),
+        "contact_points": ("-", "contact points; free velocity components, prescribed ones not counted"),
+        "degrees_of_freedom": ("-", "contact points; free velocity components, prescribed ones not counted"),
+        "prescribed": ("-", "components moved by drives; fixed joints that cost no unknowns"),
+        "structural_joints": ("-", "components moved by drives; fixed joints that cost no unknowns"),
+        "model_bytes": ("byte", "held by the compiled scene; of one sim with default options"),
+        "sim_bytes": ("byte", "held by the compiled scene; of one sim with default options"),
+        "mass": ("kg", "of all parts; of all strings"),
+        "length": ("m", "of all parts; of all strings"),
+        "joints": ("-", "described; equations of joints, couplings, callbacks and joint drives at time 0"),
+        "constraint_rows": ("-", "described; equations of joints, couplings, callbacks and joint drives at time 0"),
+        "clusters": ("-", "groups of parts that joints connect directly; nodes solved by the sparse solver, the others by the block-tridiagonal one"),
+        "reduced_nodes": ("-", "groups of parts that joints connect directly; nodes solved by the sparse solver, the others by the block-tridiagonal one"),
     }
 
 
@@ -472,11 +472,11 @@ class StepReport(Sized):
     ]
     field_docs = {
         "steps": ("-", "accepted integration steps in this call"),
-        "iterations": ("-", "Newton iterations, rejected steps included"),
-        "rejected": ("-", "steps tried and not accepted"),
+        "iterations": ("-", "Newton iterations, rejected steps included; steps tried and not accepted"),
+        "rejected": ("-", "Newton iterations, rejected steps included; steps tried and not accepted"),
         "most_iterations": ("-", "of an accepted step"),
-        "time": ("s", "reached"),
-        "residual": ("-", "largest relative residual of an accepted step"),
+        "time": ("s", "reached; largest relative residual of an accepted step"),
+        "residual": ("-", "reached; largest relative residual of an accepted step"),
         "last_step": ("s", "length of the last accepted step"),
     }
 
@@ -502,8 +502,8 @@ class InputState(Sized):
     field_docs = {
         "is_set": ("", "0: its time function is in force, since it was not set yet"),
         "value": ("unit", "set point; of a time function its value now"),
-        "present": ("unit, unit/s", "in force now, changing towards `value`"),
-        "rate": ("unit, unit/s", "in force now, changing towards `value`"),
+        "present": ("unit", "in force now, changing towards `value`"),
+        "rate": ("unit/s", "in force now, changing towards `value`"),
         "arrives": ("s", "time at which it is or was there; 0 of a time function"),
     }
 
@@ -521,8 +521,8 @@ class InputRecord(Record):
         ("call", c_uint32),
     ]
     field_docs = {
-        "time": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
-        "value": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
+        "time": ("s", "of the sim; as taken, clamped where it was"),
+        "value": ("unit of the input", "of the sim; as taken, clamped where it was"),
         "input": ("-", "number of the input in the order of description"),
         "call": ("-", "number of the call that set it: those of one call are set at once"),
     }
@@ -574,9 +574,9 @@ class Pose(Sized):
         ("depth", c_double),
     ]
     field_docs = {
-        "position": ("m", "of the section's centre, world frame, shape (3); between the nodes of an element by its shape, without its sag under its own weight, w L^4/(384 EI) at most"),
+        "position": ("m", "of the section's centre, world frame; between the nodes of an element by its shape, without its sag under its own weight, w L^4/(384 EI) at most"),
         "rotation": ("-", "columns are the section's axes in the world frame, row-major, shape (3, 3)"),
-        "displacement": ("m", "position less that at time 0 as described, world frame, shape (3)"),
+        "displacement": ("m", "position less that at time 0 as described, world frame"),
         "depth": ("m", "measured depth of the closest point of the hole's axis; 0 without a hole"),
     }
 
@@ -597,8 +597,8 @@ class Motion(Sized):
     ]
     field_docs = {
         "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY"),
-        "velocity": ("m/s, rad/s", "of the section's centre, in `frame`, shape (6)"),
-        "acceleration": ("m/s2, rad/s2", "there, in `frame`, shape (6); BODY: rate of velocity in that frame"),
+        "velocity": ("m/s, rad/s", "of the section's centre, in `frame`"),
+        "acceleration": ("m/s2, rad/s2", "there, in `frame`; BODY: rate of velocity in that frame"),
     }
 
 
@@ -617,8 +617,8 @@ class Section(Sized):
         ("strain", c_double * 6),
     ]
     field_docs = {
-        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame, shape (6). It balances all that acts between two sections: weight and inertia along the pipe and its tool joint, eccentric mass too, and wall forces, loads, springs at their points (axial-torsional pipes: mean of the element)"),
-        "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of element: stretch, shear; twist, curvature; shape (6)"),
+        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame. It balances all that acts between two sections: weight and inertia along the pipe and its tool joint, eccentric mass too, and wall forces, loads, springs at their points (axial-torsional pipes: mean of the element)"),
+        "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of element: stretch, shear; twist, curvature"),
     }
 
 
@@ -641,7 +641,7 @@ class ContactTotal(Sized):
     field_docs = {
         "closed": ("-", "contact points that touch"),
         "normal_force": ("N", "sum over the contact points"),
-        "friction": ("N", "sum of the friction components, shape (2)"),
+        "friction": ("N", "sum of the friction components"),
         "deepest": ("m", "largest penetration, >= 0"),
     }
 
@@ -691,22 +691,22 @@ class Energy(Sized):
         ("growth", c_double),
     ]
     field_docs = {
-        "kinetic": ("J", "now"),
-        "strain": ("J", "now, flexible pipes, springs and stops of joints"),
-        "gravity": ("J", "now, 0 at time 0 as described"),
-        "contact": ("J", "now, stored in the wall's stiffness"),
+        "kinetic": ("J", "now; strain of flexible pipes, springs and stops of joints"),
+        "strain": ("J", "now; strain of flexible pipes, springs and stops of joints"),
+        "gravity": ("J", "now; gravity 0 at time 0 as described; contact stored in the wall's stiffness"),
+        "contact": ("J", "now; gravity 0 at time 0 as described; contact stored in the wall's stiffness"),
         "drives": ("J", "work put in by all drives since the start"),
         "loads": ("J", "work of described loads, the bottom-hole load, the caller's constraints that move"),
         "friction": ("J", "taken by friction on the wall and in joints, energy stored in bristles included"),
         "impact": ("J", "dissipated by the damping of the normal law and of stops, and by dmb_sim_set_joint: impulses, springs released less those engaged, so it may be negative"),
-        "damping": ("J", "dissipated by material and external damping and dampers of joints"),
-        "rock": ("J", "spent at the bit"),
-        "scheme": ("J", "taken out by the time integration: work of its discrete inertia and potential forces less the change of the energies"),
+        "damping": ("J", "dissipated by material and external damping and dampers of joints; spent at the bit"),
+        "rock": ("J", "dissipated by material and external damping and dampers of joints; spent at the bit"),
+        "scheme": ("J", "taken out by the time integration: work of its discrete forces less change of energies (eq:motion.work)"),
         "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads"),
         "balance": ("J", "input and changes of energy that physics leaves open: scheme + unexplained"),
         "unexplained": ("J", "balance - scheme: from unconverged iterations only"),
         "error": ("-", "|balance| / scale; 0 only if nothing is missing"),
-        "scale": ("J", "largest of the energies supplied (input), dissipated, exchanged with gravity, and present (at the start; now, without gravity)"),
+        "scale": ("J", "largest of the energies supplied, dissipated, exchanged with gravity, present (without gravity)"),
         "growth": ("-", "change of the balance over the last tenth of the time since the start, over scale"),
     }
 
@@ -730,10 +730,10 @@ class Momentum(Sized):
         ("centre", c_double * 3),
     ]
     field_docs = {
-        "linear": ("kg m/s", "world frame, shape (3)"),
-        "angular": ("kg m2/s", "about the world's origin, world frame, shape (3)"),
+        "linear": ("kg m/s", "about the world's origin; world frame"),
+        "angular": ("kg m2/s", "about the world's origin; world frame"),
         "mass": ("kg", ""),
-        "centre": ("m", "centre of mass, world frame, shape (3)"),
+        "centre": ("m", "centre of mass, world frame"),
     }
 
 
@@ -766,10 +766,10 @@ class DriveState(Sized):
     field_docs = {
         "target": ("unit of the time function", "now, excitation included"),
         "position": ("m, rad", "of the component since time 0, unwrapped"),
-        "speed": ("m/s, rad/s", ""),
+        "speed": ("m/s, rad/s", "of the component since time 0, unwrapped"),
         "force": ("N, N m", "that the drive exerts on the part, along the component"),
-        "power": ("W", ""),
-        "work": ("J", "since the start; 0 without the energy ledger"),
+        "power": ("W", "since the start, 0 without the energy ledger"),
+        "work": ("J", "since the start, 0 without the energy ledger"),
         "command": ("N, N m", "commanded by a LOAD or CONTROL drive now; of MOTION its force"),
         "made": ("N, N m", "command after delay, rate limit and lag of the actuator, before its curve and drag"),
     }
@@ -806,15 +806,15 @@ class JointState(Sized):
         ("violation", c_double),
     ]
     field_docs = {
-        "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; there is none for frame a: ERR_VALUE"),
+        "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint"),
         "state": ("", "JOINT_..."),
-        "constraint_rows": ("-", "equations it holds now"),
-        "redundant": ("-", "of them dropped because others already imply them"),
-        "position": ("m, rad", "coordinates, RX and RY counted over full turns, shape (6)"),
-        "speed": ("m/s, rad/s", "their rates, shape (6)"),
-        "acceleration": ("m/s2, rad/s2", "the rates of those, shape (6)"),
-        "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b, shape (6); of redundant joints those of least norm"),
-        "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates, shape (6)"),
+        "constraint_rows": ("-", "equations it holds now; of them dropped because others imply them"),
+        "redundant": ("-", "equations it holds now; of them dropped because others imply them"),
+        "position": ("m, rad", "coordinates, RX and RY over full turns, and their rates"),
+        "speed": ("m/s, rad/s", "coordinates, RX and RY over full turns, and their rates"),
+        "acceleration": ("m/s2, rad/s2", "the rates of those"),
+        "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b; redundant: of least norm"),
+        "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates"),
         "violation": ("m, -", "largest violation of its equations of position"),
     }
 
@@ -847,13 +847,13 @@ class BitState(Sized):
     ]
     field_docs = {
         "on_bottom": ("", "1 while cutting or touching"),
-        "advance": ("m", "along the hole's axis since time 0"),
-        "bottom": ("m", "advance at which rock begins"),
+        "advance": ("m", "along the hole's axis since time 0; advance at which rock begins"),
+        "bottom": ("m", "along the hole's axis since time 0; advance at which rock begins"),
         "depth_of_cut": ("m", "per revolution, all blades"),
-        "weight": ("N", "weight on bit from the rock law, >= 0"),
-        "torque": ("N m", "torque on bit from the rock law, against the rotation"),
+        "weight": ("N", "weight on bit, >= 0; torque on bit, against the rotation, from the rock law"),
+        "torque": ("N m", "weight on bit, >= 0; torque on bit, against the rotation, from the rock law"),
         "load": ("N", "bottom-hole load of the time function"),
-        "side_force": ("N", "of the rock on the bit across its axis (side_cutting), world frame, shape (3)"),
+        "side_force": ("N", "of the rock on the bit across its axis (side_cutting), world frame"),
         "side_speed": ("m/s", "it is cut sideways at, across its axis"),
     }
 
@@ -897,17 +897,17 @@ class Statistics(Sized):
     field_docs = {
         "most_iterations": ("-", "of an accepted step"),
         "steps": ("-", "accepted"),
-        "rejected": ("-", ""),
-        "iterations": ("-", "in accepted and rejected steps"),
+        "rejected": ("-", "steps tried and not accepted; iterations in all"),
+        "iterations": ("-", "steps tried and not accepted; iterations in all"),
         "limited_steps": ("-", "steps accepted above the tolerance in bounded-work mode"),
         "bytes": ("byte", "of the sim"),
         "largest_residual": ("-", "relative, of an accepted step"),
-        "projection": ("m/s, rad/s", "largest correction of initial velocities, shape (2)"),
-        "assembly": ("m, rad", "largest correction of the described pose when joints were closed, shape (2)"),
+        "projection": ("m/s, rad/s", "largest correction of initial velocities"),
+        "assembly": ("m, rad", "largest correction of the described pose when joints were closed"),
         "switches": ("-", "times the independent coordinates of a cluster were chosen again"),
-        "dependent": ("-", "coordinates that constraints determine now"),
-        "redundant": ("-", "equations that are dropped now"),
-        "violation": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
+        "dependent": ("-", "coordinates that constraints determine now, equations that are dropped now"),
+        "redundant": ("-", "coordinates that constraints determine now, equations that are dropped now"),
+        "violation": ("m, -", "largest violation of an equation of position of a joint now, not of couplings, drives and callers' constraints"),
         "bounces": ("-", "contacts with the wall, stops of joints and springs that opened within fewer than ten steps after they closed: steps do not resolve them, and their speeds after it are uncertain. Lasting contacts are not counted."),
     }
 
@@ -952,27 +952,27 @@ class HolePoint(Sized):
         ("mu_static", c_double),
         ("mu_dynamic", c_double),
         ("strength", c_double),
-        ("section", c_int32),
+        ("section", c_uint32),
         ("reserved", c_uint32),
         ("section_name", c_char * 24),
     ]
     field_docs = {
         "beyond": ("", "HOLE_ABOVE the first station or _BELOW the last one, where the axis goes straight on; a hole without survey is HOLE_SURVEYED everywhere"),
-        "position": ("m", "of the axis, world frame, shape (3)"),
-        "tangent": ("-", "unit, towards greater depth, world frame, shape (3)"),
-        "normal": ("-", "unit, towards the centre of curvature, world frame; 0 where straight; shape (3)"),
-        "curvature": ("rad/m", ">= 0"),
-        "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
-        "inclination": ("rad", "from the downward vertical, 0 .. pi"),
-        "azimuth": ("rad", "clockwise seen from above, from +x (north) to -y (east), -pi .. pi; 0 if vertical"),
+        "position": ("m", "of the axis, world frame"),
+        "tangent": ("-", "unit, to greater depth; to the centre of curvature, 0 where straight; world frame"),
+        "normal": ("-", "unit, to greater depth; to the centre of curvature, 0 where straight; world frame"),
+        "curvature": ("rad/m", ">= 0; the same in the drillers' unit"),
+        "dogleg_severity": ("deg/30m", ">= 0; the same in the drillers' unit"),
+        "inclination": ("rad", "from the downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi"),
+        "azimuth": ("rad", "from the downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi"),
         "diameter": ("m", "and the wall's other constants here (scene.h):"),
         "stiffness": ("N/m^(n+1)", "per metre of pipe"),
-        "restitution": ("-", ""),
+        "restitution": ("-", "per metre of pipe"),
         "damping": ("N s/m2", "per metre of pipe"),
         "mu_static": ("-", ""),
         "mu_dynamic": ("-", ""),
         "strength": ("Pa", "of a section; 0: not given"),
-        "section": ("", "number of the last section that begins at or above the depth; -1: none"),
+        "section": ("", "number of the last section that begins at or above the depth; NONE: none"),
         "section_name": ("", "of that section, ends with 0; \"\" without one"),
     }
 
@@ -1014,15 +1014,15 @@ class FlowState(Sized):
     field_docs = {
         "rate": ("m3/s", "flow_rate of the environment"),
         "pump_pressure": ("Pa", "at the rig end, inside over outside: losses, motors and difference of columns"),
-        "bore_loss": ("Pa", "of pressure down the string, by friction"),
-        "bit_loss": ("Pa", "through nozzle_area, rho Q^2/(2 0.95^2 A^2) (Eckel, Bielstein 1951)"),
-        "annulus_loss": ("Pa", "up the annulus of the string, by friction"),
-        "column": ("Pa", "of the mud outside over that inside, far end under rig end"),
-        "drag": ("N", "of the flow along the string, towards the rig, in its effective axial force"),
-        "thrust": ("N", "rho Q V of nozzles or open end, on the far end towards the rig"),
+        "bore_loss": ("Pa", "down the string, by friction; through nozzle_area (eq:mud.nozzle)"),
+        "bit_loss": ("Pa", "down the string, by friction; through nozzle_area (eq:mud.nozzle)"),
+        "annulus_loss": ("Pa", "up the annulus, by friction; mud outside over that inside, far end under rig end"),
+        "column": ("Pa", "up the annulus, by friction; mud outside over that inside, far end under rig end"),
+        "drag": ("N", "of the flow along the string, towards the rig, in its effective axial force; rho Q V of nozzles or open end, on the far end towards the rig"),
+        "thrust": ("N", "of the flow along the string, towards the rig, in its effective axial force; rho Q V of nozzles or open end, on the far end towards the rig"),
         "pressure_stretch": ("m", "by true axial force and pressures on the walls, beyond that of N_e and of poses"),
-        "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
-        "annulus_reynolds": ("-", "largest; beyond 1e5 the smooth wall's law is low: 7 % at 3e5, 15 % at 1e6"),
+        "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955); beyond 1e5 the smooth wall's law is low in the annulus: 7 % at 3e5, 15 % at 1e6"),
+        "annulus_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955); beyond 1e5 the smooth wall's law is low in the annulus: 7 % at 3e5, 15 % at 1e6"),
         "motor_loss": ("Pa", "through mud motors at the far end at their present torque; in pump_pressure"),
     }
 
@@ -1060,14 +1060,14 @@ class SpringState(Sized):
     field_docs = {
         "length": ("m", "between its points, and beyond its free length"),
         "elongation": ("m", "between its points, and beyond its free length"),
-        "speed": ("m/s", "the elongation grows at"),
-        "force": ("N", "tension > 0: sum of the next two"),
+        "speed": ("m/s", "the elongation grows at; tension > 0: sum of the next two"),
+        "force": ("N", "the elongation grows at; tension > 0: sum of the next two"),
         "elastic": ("N", ""),
         "damper": ("N", ""),
         "energy": ("J", "stored, from the free length on, or from where a one-sided one is slack"),
-        "direction": ("-", "from a to b, world frame, shape (3)"),
-        "point_a": ("m", "world, shape (3)"),
-        "point_b": ("m", "world, shape (3)"),
+        "direction": ("-", "from a to b, world frame"),
+        "point_a": ("m", "world"),
+        "point_b": ("m", "world"),
     }
 
 
@@ -1093,13 +1093,13 @@ class StuckState(Sized):
         "stuck": ("", "1: held"),
         "offset": ("m, m, m, rad", "from where it got stuck: along, sideways y and z, turned; 0 where it is not"),
         "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
-        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it is released at 1"),
-        "energy": ("J", "stored in the springs"),
+        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque, released at 1; stored"),
+        "energy": ("J", "largest of |axial force|/overpull and |torque|/overtorque, released at 1; stored"),
     }
 
 
 class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    c_name, about = "dmb_window_options", "A window over outputs ---------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
     struct_size: int
     slots: int
     length: float
@@ -1149,9 +1149,9 @@ class WindowResult(Sized):
         "samples": ("-", "in the window"),
         "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
         "minimum": ("unit of the output", "of the samples; NaN, as all that follow, without one"),
-        "maximum": ("unit of the output", ""),
-        "mean": ("unit of the output", "over time"),
-        "rms": ("unit of the output", "root of the mean of the squares over time"),
+        "maximum": ("unit of the output", "of the samples; NaN, as all that follow, without one"),
+        "mean": ("unit of the output", "over time; root of the mean of the squares over time"),
+        "rms": ("unit of the output", "over time; root of the mean of the squares over time"),
         "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
         "low_share": ("-", "of the time, |value| <= its level, by the sample at the end of each interval"),
     }
@@ -1184,9 +1184,9 @@ class StaticOptions(Sized):
     field_docs = {
         "max_iterations": ("-", "of one load step, 1 .. 10000; default 60"),
         "tolerance": ("-", "residual over the norm of the forces that balance in it; default 1e-10"),
-        "slip_axial": ("m/s", "friction acts as if the string slid along the hole at this speed; default 0"),
-        "slip_rotation": ("rad/s", "and turned at this speed; both 0: no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
-        "load_steps": ("-", "equal steps from no load to full load, at most 10000, before the library chooses them by itself; default 0: the whole load at once"),
+        "slip_axial": ("m/s", "friction acts as if the string slid along the hole and turned at these speeds; both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
+        "slip_rotation": ("rad/s", "friction acts as if the string slid along the hole and turned at these speeds; both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
+        "load_steps": ("-", "equal steps from no load to full load, <= 10000; default 0: by the library"),
         "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
         "steady": ("", "STEADY_..., default STEADY_AUTO"),
     }
@@ -1243,12 +1243,12 @@ class StaticReport(Sized):
         "iterations": ("-", "in all"),
         "load_steps": ("-", "carried out"),
         "method": ("", "STATIC_...: the last resort that was needed"),
-        "residual": ("-", "relative, at the end"),
-        "largest_force": ("N, N m over the element length", "largest component of the residual at the end"),
+        "residual": ("-", "relative; largest component of it; at the end"),
+        "largest_force": ("N, N m over the element length", "relative; largest component of it; at the end"),
         "lateral_move": ("m", "largest displacement from the starting pose"),
-        "cuts": ("-", "load steps that did not converge and were halved"),
-        "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative ones: all up to 400 coordinates, else all within reach of the symmetric part, or if there are any, those among the 108 nearest 0; -1: none was found, and others could not be excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes)"),
+        "cuts": ("-", "load steps that were halved; corrections that were shortened by a line search"),
+        "line_searches": ("-", "load steps that were halved; corrections that were shortened by a line search"),
+        "negative": ("-", "negative eigenvalues of the stiffness (eq:signs.bounds), by which the equilibrium is unstable; -1: not resolved. UNSYMMETRIC: the real negative ones; above 400 coordinates those within reach of the symmetric part, or if there are any, those among the 108 nearest 0. Of a state that moves (`steady`): in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not"),
         "stiffness": ("", "STIFFNESS_...: the kind that was assessed"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: kind of the state"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
@@ -1296,16 +1296,16 @@ class BucklingInfo(Sized):
     field_docs = {
         "count": ("-", "factors"),
         "confirmed": ("-", "of them, the lowest: half the step length along the equilibria ends at the same first factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one linearisation to the other; the others are extrapolations. The mesh is not halved: compare with one of twice the elements"),
-        "linearisations": ("-", "of states on the path, the present one included"),
-        "points": ("-", "equilibria found on the path"),
-        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; flutter comes before (`flutter`)"),
-        "end": ("", "BUCKLING_..."),
-        "flutter": ("", "FLUTTER_..."),
+        "linearisations": ("-", "of states on the path, the present one included; equilibria found on the path"),
+        "points": ("-", "of states on the path, the present one included; equilibria found on the path"),
+        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: divergence, det K = 0; see `flutter`"),
+        "end": ("", "BUCKLING_..., FLUTTER_..."),
+        "flutter": ("", "BUCKLING_..., FLUTTER_..."),
         "estimate": ("unit of the factor", "the lowest factor, from the present state alone; infinite: none"),
-        "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about"),
-        "reached": ("unit of the factor", "last equilibrium on the path before the end"),
+        "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about; last equilibrium on the path before the end"),
+        "reached": ("unit of the factor", "state that the shapes and further factors were linearised about; last equilibrium on the path before the end"),
         "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
-        "flutter_root": ("1/s", "its root there, real and imaginary part, 0 without swinging, shape (2)"),
+        "flutter_root": ("1/s", "its root there, real and imaginary part, 0 without swinging"),
         "dip": ("-", "of BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string; below 0.92 it bends off gradually, and another mesh may give another minimum; 0: another end"),
         "sinusoidal_share": ("-", "at the lowest factor that was followed to: largest PROFILE_SINUSOIDAL_SHARE of all strings, for comparison with the closed form; NaN without a hole or a factor"),
     }
@@ -1343,8 +1343,8 @@ class PathPoint(Sized):
         "negative": ("-", "as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable"),
         "iterations": ("-", "of this point"),
         "stiffness": ("", "STIFFNESS_..."),
-        "factor": ("unit of the factor", ""),
-        "rate": ("unit of the factor/m", "of the factor along the path, < 0 where it falls"),
+        "factor": ("unit of the factor", "its rate along the path, < 0 where it falls"),
+        "rate": ("unit of the factor/m", "its rate along the path, < 0 where it falls"),
         "arc": ("m", "length of the path so far, root of the mean square of the motion of the nodes"),
         "displacement": ("m", "of the watched place and component since time 0; 0: none is watched"),
     }
@@ -1378,14 +1378,14 @@ class PathReport(Sized):
     ]
     field_docs = {
         "points": ("-", "beyond the start, limit points and bifurcations included"),
-        "limits": ("-", "limit points passed"),
-        "bifurcations": ("-", "passed or left at"),
-        "iterations": ("-", "in all"),
-        "cuts": ("-", "steps that were halved"),
+        "limits": ("-", "limit points passed; bifurcations passed or left at"),
+        "bifurcations": ("-", "limit points passed; bifurcations passed or left at"),
+        "iterations": ("-", "in all; steps that were halved"),
+        "cuts": ("-", "in all; steps that were halved"),
         "factor": ("unit of the factor", "at the end"),
         "displacement": ("m", "at the end"),
-        "first_limit": ("unit of the factor", "at the first limit point; NaN: none"),
-        "first_bifurcation": ("unit of the factor", "at the first bifurcation; NaN: none"),
+        "first_limit": ("unit of the factor", "at the first limit point, the first bifurcation; NaN: none"),
+        "first_bifurcation": ("unit of the factor", "at the first limit point, the first bifurcation; NaN: none"),
     }
 
 
@@ -1457,30 +1457,30 @@ class CheckReport(Sized):
     ]
     field_docs = {
         "rigid_parts": ("-", "bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints"),
-        "flexible_parts": ("-", "flexible and axial-torsional pipes"),
-        "elements": ("-", "of those"),
+        "flexible_parts": ("-", "flexible and axial-torsional pipes; elements of those"),
+        "elements": ("-", "flexible and axial-torsional pipes; elements of those"),
         "structural_joints": ("-", "fixed joints inside strings, which cost no unknowns"),
         "joints": ("-", "described joints that are not open, by JOINT_ kind; 0 beyond the kinds"),
-        "open_joints": ("-", "described joints that are open now"),
-        "locked_joints": ("-", "of `joints` those that are locked now"),
-        "couplings": ("-", ""),
-        "constraints": ("-", "the caller's"),
-        "motion_drives": ("-", "DRIVE_MOTION"),
-        "other_drives": ("-", "DRIVE_LOAD and _CONTROL"),
-        "loads": ("-", ""),
+        "open_joints": ("-", "described joints that are open now; of `joints` those that are locked now"),
+        "locked_joints": ("-", "described joints that are open now; of `joints` those that are locked now"),
+        "couplings": ("-", "couplings; constraints of the caller"),
+        "constraints": ("-", "couplings; constraints of the caller"),
+        "motion_drives": ("-", "DRIVE_MOTION; DRIVE_LOAD and _CONTROL; loads"),
+        "other_drives": ("-", "DRIVE_MOTION; DRIVE_LOAD and _CONTROL; loads"),
+        "loads": ("-", "DRIVE_MOTION; DRIVE_LOAD and _CONTROL; loads"),
         "coordinates": ("-", "velocity components of all nodes: 6 or (axial-torsional) 2 each"),
-        "held": ("-", "of them held by supports: start_free, end_free, free_mask"),
-        "prescribed": ("-", "of them moved by motion drives of strings and bodies"),
-        "constraint_rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
-        "rank": ("-", "of their matrix in the coordinates that are neither held nor prescribed"),
-        "degrees_of_freedom": ("-", "true degrees of freedom: coordinates - held - prescribed - rank"),
-        "redundant": ("-", "equations that others imply: rows - rank"),
-        "tridiagonal_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes"),
-        "sparse_nodes": ("-", "nodes of chains that equations connect: the sparse solver's"),
-        "blocks": ("-", "of the sparse solver: clusters and the other nodes of those chains"),
-        "fill": ("-", "couplings of blocks that its elimination adds"),
-        "clusters": ("-", "groups of nodes that equations connect directly"),
-        "largest_cluster": ("-", "coordinates of the largest"),
+        "held": ("-", "of them held by supports; moved by motion drives of strings and bodies"),
+        "prescribed": ("-", "of them held by supports; moved by motion drives of strings and bodies"),
+        "constraint_rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives; rank of their matrix in the coordinates that are neither held nor prescribed"),
+        "rank": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives; rank of their matrix in the coordinates that are neither held nor prescribed"),
+        "degrees_of_freedom": ("-", "coordinates - held - prescribed - rank; rows - rank, implied by others"),
+        "redundant": ("-", "coordinates - held - prescribed - rank; rows - rank, implied by others"),
+        "tridiagonal_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes; nodes of chains that equations connect: the sparse solver's"),
+        "sparse_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes; nodes of chains that equations connect: the sparse solver's"),
+        "blocks": ("-", "of the sparse solver: clusters and the other nodes of those chains; couplings of blocks that its elimination adds"),
+        "fill": ("-", "of the sparse solver: clusters and the other nodes of those chains; couplings of blocks that its elimination adds"),
+        "clusters": ("-", "groups of nodes that equations connect directly; coordinates of the largest"),
+        "largest_cluster": ("-", "groups of nodes that equations connect directly; coordinates of the largest"),
         "warnings": ("-", "lines of warning in the text"),
         "gruebler": ("-", "coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant"),
         "largest_violation": ("m, -", "largest violation of an equation of position"),
@@ -1519,14 +1519,14 @@ class ModesOptions(Sized):
         ("spin", c_double),
     ]
     field_docs = {
-        "kind": ("", "MODES_UNDAMPED (default), _DAMPED"),
-        "select": ("", "MODES_LOWEST (default), _ALL, _BAND"),
+        "kind": ("", "MODES_UNDAMPED (default), _DAMPED; MODES_LOWEST (default), _ALL, _BAND"),
+        "select": ("", "MODES_UNDAMPED (default), _DAMPED; MODES_LOWEST (default), _ALL, _BAND"),
         "count": ("-", "of LOWEST, 1 .. number of coordinates, twice that if DAMPED, where every real root is a mode (fewer come back where there are fewer); default 10"),
-        "band": ("Hz", "of BAND, 0 <= band[0] < band[1]; default 0 and 100, shape (2)"),
+        "band": ("Hz", "of BAND, 0 <= band[0] < band[1]; default 0 and 100"),
         "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
         "friction": ("", "1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
-        "equilibrium_tolerance": ("-", "residual over the forces that balance in it, > 0; above it the state is refused; default 1e-6"),
+        "equilibrium_tolerance": ("-", "residual over the forces that balance in it, > 0, of a state; default 1e-6"),
         "axes": ("", "MODES_AXES_TURNING (default), _AT_REST"),
         "spin": ("rad/s", "strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5"),
     }
@@ -1578,10 +1578,10 @@ class ModesInfo(Sized):
         "coordinates": ("-", "independent coordinates of the linear system"),
         "dense": ("", "1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors"),
         "solves": ("-", "with those factors"),
-        "residual_of_state": ("-", "relative residual of the state without its body-frame accelerations"),
-        "asymmetry": ("-", "of K; above 1e-9 it is treated as unsymmetric (friction, follower loads)"),
+        "residual_of_state": ("-", "relative residual of the state without its body-frame accelerations; asymmetry of K, above 1e-9 treated as unsymmetric (friction, follower loads)"),
+        "asymmetry": ("-", "relative residual of the state without its body-frame accelerations; asymmetry of K, above 1e-9 treated as unsymmetric (friction, follower loads)"),
         "residual": ("-", "largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it"),
-        "double_roots": ("-", "roots that were reported as the mean of two or more with one shape (critical damping, the edge of flutter, straight motion seen in axes that spin): rounding parts those by its root, and a residual does not show it"),
+        "double_roots": ("-", "roots that were reported as the mean of two or more with one shape (critical damping, the edge of flutter, straight motion seen in axes that spin): eq:modes.double"),
     }
 
 
@@ -1617,16 +1617,16 @@ class Mode(Sized):
     ]
     field_docs = {
         "rigid": ("", "1: a rigid-body mode: nothing holds or strains it"),
-        "frequency": ("Hz", "|s|/(2 pi)"),
-        "damping": ("-", "-Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one"),
-        "eigenvalue": ("1/s", "s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and one that decays. Without damping, divergence (s, -s) is one mode, s > 0"),
-        "kinetic": ("J", "|s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg)"),
-        "strain": ("J", "of elements, elastic part"),
-        "share": ("-", "of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in their own axes; of a rigid mode at unit |s|; sum 1, shape (3)"),
-        "participation": ("kg^0.5", "d^T M e for a base that moves along world x, y, z, shape (3)"),
-        "effective_mass": ("kg", "their squares: sum over all modes = mass that is free to move, shape (3)"),
+        "frequency": ("Hz", "|s|/(2 pi); -Re s/|s|, 1 of an overdamped root, one mode, 0 of a rigid one"),
+        "damping": ("-", "|s|/(2 pi); -Re s/|s|, 1 of an overdamped root, one mode, 0 of a rigid one"),
+        "eigenvalue": ("1/s", "s, real and imaginary part >= 0. Flutter is two modes, one that grows and one that decays. Without damping, divergence (s, -s) is one mode, s > 0"),
+        "kinetic": ("J", "|s|^2 d^H M d/2 of the shape with d^H M d = 1 kg m2 (or kg); of elements, elastic part"),
+        "strain": ("J", "|s|^2 d^H M d/2 of the shape with d^H M d = 1 kg m2 (or kg); of elements, elastic part"),
+        "share": ("-", "of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in their own axes; of a rigid mode at unit |s|; sum 1"),
+        "participation": ("kg^0.5", "d^T M e for a base that moves along world x, y, z; their squares: sum over all modes = mass that is free to move"),
+        "effective_mass": ("kg", "d^T M e for a base that moves along world x, y, z; their squares: sum over all modes = mass that is free to move"),
         "whirl": ("-", "part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in circles from z to y (backward), in `axes`: 1 .. -1; 0 of real shapes"),
-        "strain_share": ("-", "of the strain energy that is stretch, twist, bending with shear; sum 1, or 0 where nothing is strained, shape (3)"),
+        "strain_share": ("-", "of the strain energy that is stretch, twist, bending with shear; sum 1 or 0"),
     }
 
 
@@ -1646,8 +1646,8 @@ class ModeShape(Sized):
     ]
     field_docs = {
         "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY, axes of re and im"),
-        "re": ("m, rad", "displacement and rotation of the place, d = Re(shape e^(s t)), shape (6)"),
-        "im": ("m, rad", "0 of undamped modes, shape (6)"),
+        "re": ("m, rad", "displacement and rotation of a place, d = Re(shape e^(s t)); im 0 if undamped"),
+        "im": ("m, rad", "displacement and rotation of a place, d = Re(shape e^(s t)); im 0 if undamped"),
     }
 
 
@@ -1689,8 +1689,8 @@ class ResponseOptions(Sized):
     ]
     field_docs = {
         "points": ("-", "of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000"),
-        "frequency_low": ("Hz", ">= 0; > 0 of a logarithmic grid; default 1"),
-        "frequency_high": ("Hz", ">= frequency_low; default 100"),
+        "frequency_low": ("Hz", ">= 0, > 0 of a logarithmic grid, the second >= the first; default 1 and 100"),
+        "frequency_high": ("Hz", ">= 0, > 0 of a logarithmic grid, the second >= the first; default 1 and 100"),
         "frequencies": ("Hz", "ascending, shape (points): these instead of a grid; NULL (default): the grid"),
         "logarithmic": ("", "1: equal ratios between frequencies; 0 (default): equal differences"),
         "refinement": ("-", "times the intervals on both sides of each peak of a transfer function are halved, 0 .. 40; default 0. A peak that falls between two points unseen is not found"),
@@ -1719,7 +1719,7 @@ class ResponseOptions(Sized):
 
 
 class SteppedSineOptions(Sized):
-    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
+    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------- Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
     struct_size: int
     steps_per_period: int
     periods: int
@@ -1741,9 +1741,9 @@ class SteppedSineOptions(Sized):
         ("floor", c_double),
     ]
     field_docs = {
-        "steps_per_period": ("-", "16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so"),
-        "periods": ("-", "of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited; default 4"),
-        "windows": ("-", "at most, 3 .. 1e6; default 500"),
+        "steps_per_period": ("-", "16 .. 1e6; default 100: frequency error about (2 pi/this)^2/12"),
+        "periods": ("-", "of a window, 1 .. 1e4, more than 1 where multiples of the period are awaited; windows at most, 3 .. 1e6; default 4, 500"),
+        "windows": ("-", "of a window, 1 .. 1e4, more than 1 where multiples of the period are awaited; windows at most, 3 .. 1e6; default 4, 500"),
         "harmonics": ("-", "1 .. 16, at most an eighth of steps_per_period; default 3"),
         "tolerance": ("-", "settled: the remaining change, extrapolated from the last windows, is below this part of the largest harmonic of each output; default 1e-3"),
         "floor": ("unit of the output", "changes of a harmonic below it count as none, > 0; default 1e-12"),
@@ -1782,11 +1782,11 @@ class SteppedSineReport(Sized):
     ]
     field_docs = {
         "settled": ("", "1 if it was"),
-        "windows": ("-", "run"),
-        "rejected": ("-", "steps tried and not accepted"),
+        "windows": ("-", "run; steps tried and not accepted"),
+        "rejected": ("-", "run; steps tried and not accepted"),
         "steps": ("-", "accepted"),
-        "change": ("-", "between the last two windows, of the largest harmonic, worst output"),
-        "remaining": ("-", "estimated still to come"),
+        "change": ("-", "between the last two windows, worst output; estimated still to come"),
+        "remaining": ("-", "between the last two windows, worst output; estimated still to come"),
         "time": ("s", "reached"),
     }
 
@@ -1846,14 +1846,14 @@ class SpeedBand(Sized):
         ("reserved1", c_int32),
     ]
     field_docs = {
-        "order": ("-", "number of the order that counts most at the worst speed"),
-        "output": ("-", "number of its output that is worst"),
+        "order": ("-", "number of the order that counts most at the worst speed, and of its worst output"),
+        "output": ("-", "number of the order that counts most at the worst speed, and of its worst output"),
         "low": ("rad/s", "of the band, margin included"),
         "high": ("rad/s", "of the band, margin included"),
-        "speed": ("rad/s", "the worst in it"),
-        "severity": ("-", "there"),
+        "speed": ("rad/s", "the worst in it, and its severity"),
+        "severity": ("-", "the worst in it, and its severity"),
         "frequency": ("Hz", "of that order there"),
-        "truncated": ("", "1: continues below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
+        "truncated": ("", "1: continues below speed_low, 2: above speed_high, 3: both, 0: whole"),
     }
 
 
@@ -1890,14 +1890,14 @@ class StateSpaceOptions(Sized):
         ("shift", c_double),
     ]
     field_docs = {
-        "form": ("", "STATE_..., default STATE_FULL"),
-        "motion": ("", "MOTION_..., default MOTION_SPEED"),
+        "form": ("", "STATE_..., default STATE_FULL; MOTION_..., default MOTION_SPEED"),
+        "motion": ("", "STATE_..., default STATE_FULL; MOTION_..., default MOTION_SPEED"),
         "static_correction": ("", "1 (default): quasi-static shapes of the inputs in the basis; 0: modes alone"),
         "modes": ("", "of STATE_REDUCED: modes about this state, of any kind, contact as here"),
         "mode_list": ("-", "numbers of those that are taken, shape (mode_count); NULL (default): all"),
         "mode_count": ("-", "of mode_list; 0 (default) without one"),
-        "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
-        "friction": ("", "as of a response, default 1"),
+        "contact": ("", "CONTACT_...; as of a response; default CONTACT_AS_IS, 1"),
+        "friction": ("", "CONTACT_...; as of a response; default CONTACT_AS_IS, 1"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
         "equilibrium_tolerance": ("-", "residual over the forces that balance in it; default 1e-6"),
         "shift": ("Hz", ">= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move as a rigid body, far below the frequencies that count"),
@@ -1949,18 +1949,18 @@ class StateSpaceInfo(Sized):
         "inputs": ("-", ""),
         "outputs": ("-", ""),
         "coordinates": ("-", "of A: independent ones, or shapes of the basis"),
-        "mode_shapes": ("-", "of these, of modes; the others are quasi-static"),
-        "input_states": ("-", ""),
-        "rows": ("-", "of M, C, K: all rows of the scene, held ones too"),
-        "independent": ("-", "columns of MATRIX_COORDINATES"),
+        "mode_shapes": ("-", "of these, of modes, the others being quasi-static; states of inputs"),
+        "input_states": ("-", "of these, of modes, the others being quasi-static; states of inputs"),
+        "rows": ("-", "of M, C, K: all rows of the scene, held ones too; columns of MATRIX_COORDINATES"),
+        "independent": ("-", "of M, C, K: all rows of the scene, held ones too; columns of MATRIX_COORDINATES"),
         "constraint_rows": ("-", "of the Jacobian: equations that act"),
-        "residual_of_state": ("-", "relative"),
-        "largest_force": ("N", "of it"),
+        "residual_of_state": ("-", "relative; of it"),
+        "largest_force": ("N", "relative; of it"),
     }
 
 
 class Parameter(Sized):
-    c_name, about = "dmb_parameter", "For dmb_sensitivity_create."
+    c_name, about = "dmb_parameter", "derivatives of one run"
     struct_size: int
     one_sided: int
     step: float
@@ -1978,7 +1978,7 @@ class Parameter(Sized):
         ("name", c_char * 24),
     ]
     field_docs = {
-        "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
+        "one_sided": ("", "1: steps are taken on the high side only, at half the cost, errors of first order in `step`; default 0"),
         "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
         "low": ("", "only read, and only by dmb_sensitivity_create"),
         "high": ("", "as `low`"),
@@ -2005,10 +2005,10 @@ class Operation(Sized):
         ("torque_on_bit", c_double),
     ]
     field_docs = {
-        "axial_speed": ("m/s", "along the hole, > 0 into it; default 0"),
-        "rotary_speed": ("rad/s", "friction acts along the sum of both speeds at the pipe's surface; default 0"),
-        "weight_on_bit": ("N", "against the string's end, along the hole; default 0"),
-        "torque_on_bit": ("N m", ">= 0, against the rotation; default 0"),
+        "axial_speed": ("m/s", "along the hole, > 0 into it; ; friction is along their sum; default 0"),
+        "rotary_speed": ("rad/s", "along the hole, > 0 into it; ; friction is along their sum; default 0"),
+        "weight_on_bit": ("N", "along the hole against the end; >= 0, against the rotation; default 0"),
+        "torque_on_bit": ("N m", "along the hole against the end; >= 0, against the rotation; default 0"),
     }
 
 
@@ -2053,21 +2053,21 @@ class TorqueDragRow(Sized):
         ("wall_force", c_double),
     ]
     field_docs = {
-        "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load, torque and the values along the string are NaN"),
+        "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN"),
         "depth": ("m", "measured depth of the far end"),
-        "hook_load": ("N", "effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes"),
-        "torque": ("N m", "at the rig end, against friction and bit"),
+        "hook_load": ("N", "effective axial force at the rig end, > 0: it pulls, < 0: it pushes; there"),
+        "torque": ("N m", "effective axial force at the rig end, > 0: it pulls, < 0: it pushes; there"),
         "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
-        "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
-        "lowest_at": ("m", "measured depth where"),
-        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile; NaN where a compressed part is not pressed to the wall"),
-        "helical_share": ("-", "the same of helical buckling"),
-        "buckled_at": ("m", "measured depth where that is"),
+        "lowest_force": ("N", "least effective axial force, most compressed where < 0; measured depth where"),
+        "lowest_at": ("m", "least effective axial force, most compressed where < 0; measured depth where"),
+        "sinusoidal_share": ("-", "largest share of the sinusoidal buckling load, as of a profile; NaN without wall force"),
+        "helical_share": ("-", "the same of helical buckling; measured depth where that is"),
+        "buckled_at": ("m", "the same of helical buckling; measured depth where that is"),
         "helix_length": ("m", "of string above the load of helical buckling"),
-        "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength"),
-        "yield_at": ("m", "measured depth where"),
-        "stretch": ("m", "by the effective force, > 0 longer"),
-        "wind_up": ("rad", "of the rig end against the bit"),
+        "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength; measured depth where"),
+        "yield_at": ("m", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength; measured depth where"),
+        "stretch": ("m", "by the effective force, > 0 longer; of the rig end against the bit"),
+        "wind_up": ("rad", "by the effective force, > 0 longer; of the rig end against the bit"),
         "wall_force": ("N", "sum over the string"),
     }
 
@@ -2105,16 +2105,16 @@ class Hydraulics(Sized):
         ("reynolds", c_double),
     ]
     field_docs = {
-        "depth": ("m", "measured depth of the string's far end"),
-        "vertical_depth": ("m", "of it below the start of the string, along gravity; < 0 above it"),
-        "bore_loss": ("Pa", "down the string at the flow_rate, by friction"),
-        "bit_loss": ("Pa", "through nozzle_area"),
-        "annulus_loss": ("Pa", "up the annulus, by friction"),
+        "depth": ("m", "measured depth of the far end; vertical one below the start of the string"),
+        "vertical_depth": ("m", "measured depth of the far end; vertical one below the start of the string"),
+        "bore_loss": ("Pa", "friction in the string; through nozzle_area; friction in the annulus"),
+        "bit_loss": ("Pa", "friction in the string; through nozzle_area; friction in the annulus"),
+        "annulus_loss": ("Pa", "friction in the string; through nozzle_area; friction in the annulus"),
         "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
         "circulating_density": ("kg/m3", "fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0"),
         "trip_pressure": ("Pa", "of the closed string at the trip speed, more going in, less coming out"),
-        "surge_density": ("kg/m3", "fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0"),
-        "swab_density": ("kg/m3", "fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
+        "surge_density": ("kg/m3", "fluid_density +, - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
+        "swab_density": ("kg/m3", "fluid_density +, - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
         "reynolds": ("-", "largest of bore, annulus and trip"),
     }
 
@@ -2152,11 +2152,11 @@ class FatigueOptions(Sized):
         "points": ("-", "points around a section, 2 .. 360, the first on its y axis; default 8"),
         "stress_range": ("Pa", "levels spread over -stress_range .. stress_range, > 0; default 1e9"),
         "concentration": ("-", "factor on the stress, >= 1; default 1"),
-        "curve_stress": ("Pa", "amplitude that is borne for curve_cycles, > 0; the user's, no default"),
-        "curve_cycles": ("-", "> 0; default 1e6"),
-        "slope": ("-", "1 .. 50; the user's, no default"),
-        "endurance": ("Pa", "amplitudes up to this do no damage, >= 0; default 0"),
-        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default): the mean does not count"),
+        "curve_stress": ("Pa", "amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6"),
+        "curve_cycles": ("-", "amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6"),
+        "slope": ("-", "1 .. 50, the user's, no default; amplitudes up to this do no damage, >= 0, default 0"),
+        "endurance": ("Pa", "1 .. 50, the user's, no default; amplitudes up to this do no damage, >= 0, default 0"),
+        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): none"),
     }
     bounds = {
         "classes": ("within", 8, 65536),
@@ -2201,13 +2201,13 @@ class FatigueResult(Sized):
     ]
     field_docs = {
         "point": ("-", "the point of the section with the largest damage, or else the largest range"),
-        "samples": ("-", ""),
+        "samples": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
         "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
         "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a cycle reaches tensile_strength: the section breaks at once"),
-        "cycles": ("-", "at that point, halves included"),
-        "largest_range": ("Pa", "of them"),
-        "lowest": ("Pa", "stress at that point, concentration included"),
-        "highest": ("Pa", "highest stress there"),
+        "cycles": ("-", "at that point, halves included; largest range of them"),
+        "largest_range": ("Pa", "at that point, halves included; largest range of them"),
+        "lowest": ("Pa", "stresses at that point, concentration included"),
+        "highest": ("Pa", "stresses at that point, concentration included"),
         "time": ("s", "between the first and the last sample"),
         "life": ("s", "time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one"),
     }
@@ -2218,7 +2218,7 @@ LOG_FN.__doc__ = "Called with a line of text, never during a step. The text live
 
 
 TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
-TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
+TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are by differences and quadrature. All within +-UNLIMITED. Returns 0, or nonzero to stop."
 
 
 ACCEPT_FN = CFUNCTYPE(None, c_void_p, c_double, c_uint32, POINTER(c_double))
@@ -2230,7 +2230,7 @@ CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
-PART_FN.__doc__ = "One part of the work of a step."
+PART_FN.__doc__ = "The function dmb_part_fn of the headers."
 
 
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
@@ -2238,7 +2238,7 @@ PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never fal
 
 
 STEP_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p)
-STEP_FN.__doc__ = "Sees the sim after an accepted step and may query, record and save it, but not change it. Returns 0, or nonzero to end the call."
+STEP_FN.__doc__ = "Sees the sim after an accepted step; may query, record and save it. Returns 0, or nonzero to end the call."
 
 
 class Place(Record):
@@ -2306,8 +2306,8 @@ class Segment(SegmentPart, Sized):
         "x1": ("s", "start and end of STEP and STEP5, x1 > x0; default 0 and 1"),
         "h0": ("unit of the time function", "default 0 and 0"),
         "h1": ("unit of the time function", "default 0 and 0"),
-        "omega": ("rad/s", "of HARMONIC; default 0"),
-        "phase": ("rad", "of HARMONIC and PER_REVOLUTION; default 0"),
+        "omega": ("rad/s", "of HARMONIC; of HARMONIC and PER_REVOLUTION; default 0"),
+        "phase": ("rad", "of HARMONIC; of HARMONIC and PER_REVOLUTION; default 0"),
         "table_time": ("s", "strictly increasing, shape (table_count); copied"),
         "table_value": ("unit of the time function", "shape (table_count); copied. First = last for PERIODIC"),
         "table_count": ("-", "1 .. 2^20; 2 .. 2^20 of PERIODIC, with a period of at least 1 us"),
@@ -2315,8 +2315,8 @@ class Segment(SegmentPart, Sized):
         "callback": ("", "of CALLBACK; pure: same values for the same time, callable from any thread"),
         "callback_context": ("", ""),
         "of": ("", "of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and PER_REVOLUTION. It is followed as described; inputs (compile warns of them), dmb_sim_set_drive and limits of drives do not change it"),
-        "share": ("-", "of PER_REVOLUTION: amplitude over w; default 0. Its integral is exact to round-off"),
-        "order": ("-", "of PER_REVOLUTION: periods a revolution, > 0; default 1"),
+        "share": ("-", "of PER_REVOLUTION: amplitude over w; periods a revolution, > 0; default 0, 1"),
+        "order": ("-", "of PER_REVOLUTION: amplitude over w; periods a revolution, > 0; default 0, 1"),
     }
 
 
@@ -2389,29 +2389,29 @@ class PipeDef(Sized):
     field_docs = {
         "kind": ("", "PIPE_..., default PIPE_FLEXIBLE"),
         "string": ("", "where to append; {0, 0}: the model's first string, made if there is none"),
-        "elements": ("-", "elements in a pipe, 1 .. 1024; default 1"),
-        "seed": ("-", "of the random eccentricity; default 1"),
+        "elements": ("-", "elements in a pipe, 1 .. 1024; seed of the random eccentricity; default 1, 1"),
+        "seed": ("-", "elements in a pipe, 1 .. 1024; seed of the random eccentricity; default 1, 1"),
         "length": ("m", "of one pipe with its joint, > 0; default 1"),
-        "outer_diameter": ("m", "> inner_diameter; default 0.073"),
-        "inner_diameter": ("m", ">= 0; default 0.061"),
-        "young_modulus": ("Pa", "> 0; default 2.1e11"),
-        "poisson_ratio": ("-", "-1 < nu < 0.5; default 0.3"),
-        "density": ("kg/m3", "> 0; default 7850"),
-        "shear_factor": ("-", "kappa in GA = kappa G A, > 0; default 0.5 (thin tube)"),
-        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; 1e-4 s is usual for steel pipes in a hole"),
+        "outer_diameter": ("m", "the first > the second >= 0; default 0.073 and 0.061"),
+        "inner_diameter": ("m", "the first > the second >= 0; default 0.073 and 0.061"),
+        "young_modulus": ("Pa", "> 0; -1 < nu < 0.5; default 2.1e11, 0.3"),
+        "poisson_ratio": ("-", "> 0; -1 < nu < 0.5; default 2.1e11, 0.3"),
+        "density": ("kg/m3", "> 0; kappa in GA = kappa G A, > 0; default 7850, 0.5 (thin tube)"),
+        "shear_factor": ("-", "> 0; kappa in GA = kappa G A, > 0; default 7850, 0.5 (thin tube)"),
+        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; steel: 1e-4"),
         "joint_length": ("m", "of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0"),
         "joint_outer_diameter": ("m", "default 0: as the pipe"),
         "joint_inner_diameter": ("m", "default 0: as the pipe"),
         "joint_mass": ("kg", "0: from the diameters, length and density"),
-        "joint_inertia": ("kg m2", "about its axis and across, at its centre, the first <= twice the second; 0: from the geometry; shape (2)"),
-        "eccentricity": ("m", "distance of the pipe's centre of mass from its axis, >= 0; default 0"),
-        "eccentricity_angle": ("rad", "from y towards z of the section frame; default 0"),
-        "eccentricity_spread": ("m", "uniform random addition -spread .. spread (cut at 0) pipe by pipe; default 0"),
-        "angle_spread": ("rad", "uniform random addition -spread .. spread pipe by pipe; default 0"),
-        "curvature": ("rad/m", "unstressed twist and curvature about x, y, z; default 0, shape (3)"),
+        "joint_inertia": ("kg m2", "about its axis and across, at its centre, first <= twice the second; 0: by geometry"),
+        "eccentricity": ("m", "distance of the pipe's centre of mass from its axis, >= 0; its angle from y towards z of the section frame; default 0"),
+        "eccentricity_angle": ("rad", "distance of the pipe's centre of mass from its axis, >= 0; its angle from y towards z of the section frame; default 0"),
+        "eccentricity_spread": ("m", "uniform random addition pipe by pipe, -spread .. spread (>= 0); default 0"),
+        "angle_spread": ("rad", "uniform random addition pipe by pipe, -spread .. spread (>= 0); default 0"),
+        "curvature": ("rad/m", "unstressed twist and curvature about x, y, z; default 0"),
         "section_stiffness": ("N, N, N, N m2, N m2, N m2", "EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters"),
         "section_mass": ("kg/m", "0: from the diameters"),
-        "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
+        "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across"),
         "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
         "name": ("", "of the pipes that one call adds, for messages and dmb_model_find_pipes; default \"\""),
         "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end; 0 (default): at nodes only, so that sections bear the weight w between them as those of a beam on these points: w L^2/12 at the nodes of pipes that lie on the wall, where contact along the elements gives 0"),
@@ -2419,7 +2419,7 @@ class PipeDef(Sized):
 
 
 class StabiliserDef(Sized):
-    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle."
     struct_size: int
     pipe: int
     string: Id
@@ -2451,12 +2451,12 @@ class StabiliserDef(Sized):
         "string": ("", "{0, 0}: the model's first string"),
         "fraction": ("-", "0 .. 1 of the pipe's length: its middle; default 0.5"),
         "outer_diameter": ("m", "that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09"),
-        "length": ("m", "> 0; default 0.3"),
-        "mass": ("kg", "0 (default): of a hollow cylinder around the pipe, of `density`"),
-        "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
+        "length": ("m", "> 0; 0: of a hollow cylinder around the pipe, of `density`; default 0.3, 0"),
+        "mass": ("kg", "> 0; 0: of a hollow cylinder around the pipe, of `density`; default 0.3, 0"),
+        "inertia": ("kg m2", "about its axis and across, at the middle, first <= twice second; 0 (default): of that cylinder"),
         "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
         "name": ("", "for messages, ends with 0; default \"\""),
-        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out; shape (2)"),
+        "added_mass": ("kg", "of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0, and NOT_GIVEN across: by added_mass of the environment, its ends left out"),
     }
 
 
@@ -2502,17 +2502,17 @@ class BodyDef(Sized):
         "attach": ("", "ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own, reference point and axes those of the end; ATTACH_NONE: a body of its own (default)"),
         "string": ("", "{0, 0}: the model's first string"),
         "mass": ("kg", "> 0; default 1"),
-        "centre": ("m", "centre of mass from the reference point, body frame; default 0, shape (3)"),
-        "inertia": ("kg m2", "xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive definite, no principal moment above the sum of the other two by more than 1e-6 of itself; default 1e-3 on the diagonal, shape (6)"),
-        "position": ("m", "reference point of a free body, world frame; default 0, shape (3)"),
-        "rotation": ("rad", "rotation vector of a free body; default 0, shape (3)"),
-        "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0, shape (6)"),
+        "centre": ("m", "centre of mass from the reference point, body frame; default 0"),
+        "inertia": ("kg m2", "xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive definite, no principal moment above the sum of the others by more than 1e-6; default 1e-3 on the diagonal"),
+        "position": ("m", "reference point and rotation vector of a free body, world frame; default 0"),
+        "rotation": ("rad", "reference point and rotation vector of a free body, world frame; default 0"),
+        "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0"),
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
-        "contact_diameter": ("m", "of the contact ring at the reference point; 0: none (default)"),
-        "contact_length": ("m", "length of wall it represents, > 0; default 1"),
+        "contact_diameter": ("m", "of the contact ring at the reference point, 0: none; length of wall it stands for, > 0; default 0, 1"),
+        "contact_length": ("m", "of the contact ring at the reference point, 0: none; length of wall it stands for, > 0; default 0, 1"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
-        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
+        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0"),
     }
 
 
@@ -2577,26 +2577,26 @@ class BitDef(Sized):
         "string": ("", "the bit is fixed to the far end of it; {0, 0}: the model's first string"),
         "load": ("N", "time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none"),
         "mass": ("kg", "> 0; default 5"),
-        "inertia": ("kg m2", "about the axis and across, at the centre, the first <= twice the second; 0 (default): of a solid cylinder"),
-        "diameter": ("m", "gauge that meets the wall, <= hole; 0: no contact; default 0.092"),
-        "length": ("m", "> 0, centre at half of it beyond the string's end; default 0.1"),
+        "inertia": ("kg m2", "about the axis and across, at the centre, first <= twice second; 0 (default): of a cylinder"),
+        "diameter": ("m", "gauge that meets the wall, <= hole, 0: no contact; > 0, centre at half of it beyond the string; default 0.092, 0.1"),
+        "length": ("m", "gauge that meets the wall, <= hole, 0: no contact; > 0, centre at half of it beyond the string; default 0.092, 0.1"),
         "radius": ("m", "a of the rock law, > 0; default 0.047"),
-        "intrinsic_energy": ("Pa", "eps, > 0; default 1e7"),
-        "cutting_ratio": ("-", "zeta, > 0; default 0.6"),
+        "intrinsic_energy": ("Pa", "eps, > 0; zeta, > 0; default 1e7, 0.6"),
+        "cutting_ratio": ("-", "eps, > 0; zeta, > 0; default 1e7, 0.6"),
         "contact_strength": ("Pa", "sigma, >= 0; default 1e7"),
-        "wear_length": ("m", "l, >= 0; default 1e-3"),
-        "contact_friction": ("-", "the product mu gamma, >= 0; default 0.5"),
-        "intrusion_depth": ("m", "over which the wear-flat force is taken up, > 0; default 1e-4"),
-        "bottom": ("m", "distance of the hole bottom ahead of the bit at time 0, >= 0; default 0"),
-        "blades": ("-", "1 .. 64; default 4"),
-        "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
+        "wear_length": ("m", "l, >= 0; the product mu gamma, >= 0; default 1e-3, 0.5"),
+        "contact_friction": ("-", "l, >= 0; the product mu gamma, >= 0; default 1e-3, 0.5"),
+        "intrusion_depth": ("m", "over which the wear-flat force is taken up, > 0; bottom ahead of the bit at time 0, >= 0; default 1e-4, 0"),
+        "bottom": ("m", "over which the wear-flat force is taken up, > 0; bottom ahead of the bit at time 0, >= 0; default 1e-4, 0"),
+        "blades": ("-", "1 .. 64; samples of the cut surface, of REGENERATIVE, 64 .. 2^20; default 4, 1024"),
+        "history": ("-", "1 .. 64; samples of the cut surface, of REGENERATIVE, 64 .. 2^20; default 4, 1024"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "as of a body"),
         "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string are ignored, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
         "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
-        "added_mass": ("kg", "as of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
+        "added_mass": ("kg", "as of a body, at the bit's centre; a reamer's is that of its stabiliser; default 0"),
     }
 
 
@@ -2635,8 +2635,8 @@ class CouplingDef(Sized):
         "joint": ("", "may be the same"),
         "component": ("", "X .. RZ, free in its joint; default RX"),
         "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
-        "third_joint": ("", "{0, 0} (default): two coordinates"),
-        "fourth_joint": ("", "{0, 0} (default): none"),
+        "third_joint": ("", "{0, 0} (default): two coordinates, or three"),
+        "fourth_joint": ("", "{0, 0} (default): two coordinates, or three"),
         "third_component": ("", "X .. RZ, free in its joint; default RX"),
         "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
         "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
@@ -2710,27 +2710,27 @@ class DriveDef(DrivePart, Sized):
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
         "part": ("", "a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string"),
         "component": ("", "X (feed, default) .. RZ; must be free there; of a joint: its coordinate"),
-        "time_function": ("", "{0, 0} (default): the constant `value`"),
-        "excitation": ("", "time function added to the first (vibration); {0, 0}: none"),
-        "value": ("m/s, rad/s; N, N m of LOAD", "without a time function; 0 with one; default 0: a MOTION drive holds its component"),
-        "gain": ("N s/m, N m s", "kp of CONTROL, >= 0; default 0"),
-        "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
-        "limit_low": ("N, N m", "default -1e30"),
-        "limit_high": ("N, N m", "> limit_low; default 1e30"),
+        "time_function": ("", "{0, 0} (default): the constant `value`; added to it (vibration), {0, 0}: none"),
+        "excitation": ("", "{0, 0} (default): the constant `value`; added to it (vibration), {0, 0}: none"),
+        "value": ("m/s, rad/s; N, N m of LOAD", "without a time function, 0 with one; default 0: MOTION holds its component"),
+        "gain": ("N s/m, N m s", "kp; ki of CONTROL, >= 0; default 0"),
+        "integral_gain": ("N/m, N m", "kp; ki of CONTROL, >= 0; default 0"),
+        "limit_low": ("N, N m", "limit_high > limit_low; default -UNLIMITED and UNLIMITED"),
+        "limit_high": ("N, N m", "limit_high > limit_low; default -UNLIMITED and UNLIMITED"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
-        "delay": ("s", "from command to force, 0 or 1e-6 .. 1e4"),
-        "force_rate": ("N/s, N m/s", "the most its force changes in a second, > 0; 0: it jumps"),
+        "delay": ("s", "from command to force, 0 or 1e-6 .. 1e4; its largest rate, > 0; 0: jumps"),
+        "force_rate": ("N/s, N m/s", "from command to force, 0 or 1e-6 .. 1e4; its largest rate, > 0; 0: jumps"),
         "lag": ("s", "time constant of the force, 0 or >= 1e-6"),
-        "drag": ("N s/m, N m s", "of the actuator where the component's speed is > 0, >= 0"),
-        "back_drag": ("N s/m, N m s", "where it is < 0: back-spin, >= 0"),
-        "inertia": ("kg m2", "of rotor and gear, turning with the component, which must be RX of a string or a body; >= 0; of MOTION too"),
+        "drag": ("N s/m, N m s", "of the actuator at speeds > 0, and < 0 (back-spin); >= 0"),
+        "back_drag": ("N s/m, N m s", "of the actuator at speeds > 0, and < 0 (back-spin); >= 0"),
+        "inertia": ("kg m2", ">= 0 of rotor and gear, turning with the component, RX of a string or a body; of MOTION too"),
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
         "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
         "gain_count": ("-", "points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16"),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "instead of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
-        "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
+        "mud_pressure": ("Pa/(N m)", "fall of the mud's pressure for each N m of a motor, >= 0, of RX of a joint, with a flow_rate at the far end of the string; by dmb_motor_drive; 0 (default): no mud flows through it"),
     }
 
 
@@ -2767,8 +2767,8 @@ class InputDef(Sized):
         "name": ("", "required, unique among the inputs, ends with 0"),
         "part": ("", "drive, load, bit or stuck place; {0, 0} of wall and environment"),
         "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the time function, until the input is set"),
-        "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
-        "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
+        "low": ("unit of the target", "bounds, low <= high; default -UNLIMITED, UNLIMITED: those of the target"),
+        "high": ("unit of the target", "bounds, low <= high; default -UNLIMITED, UNLIMITED: those of the target"),
         "rate_limit": ("unit/s", "of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
         "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then reaches the set point in the least time that both limits allow"),
         "outside": ("", "OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound"),
@@ -2851,18 +2851,18 @@ class Contact(Sized):
         ("along", c_double),
     ]
     field_docs = {
-        "closed": ("", "1 when touching"),
-        "sticks": ("", "1 when the bristle law holds it"),
+        "closed": ("", "1 when touching; 1 when the bristle law holds it"),
+        "sticks": ("", "1 when touching; 1 when the bristle law holds it"),
         "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
         "part": ("", "string or body the contact point belongs to"),
         "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
         "length": ("m", "of pipe it represents"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
-        "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
-        "normal_force": ("N", "on the wall, >= 0"),
-        "approach": ("m/s", "normal speed towards the wall"),
-        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) that of the equilibrium, until the next step; shape (2)"),
-        "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
+        "normal": ("-", "outward, from the axis to the wall, world frame"),
+        "normal_force": ("N", "on the wall, >= 0; normal speed towards the wall"),
+        "approach": ("m/s", "on the wall, >= 0; normal speed towards the wall"),
+        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) that of the equilibrium, until the next step"),
+        "slip": ("m/s", "of the contact point on the wall, same directions"),
         "along": ("N", "on the pipe along its axis where the wall's diameter or stiffness changes (scene.h)"),
     }
 
@@ -2901,7 +2901,7 @@ class ProfileStruct(Sized):
         "quantity_count": ("-", "1 .. the number of them; repetitions allowed"),
         "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
         "station_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
-        "quantity_stride": ("-", ""),
+        "quantity_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
     }
 
 
@@ -2936,11 +2936,11 @@ class BucklingOptions(Sized):
         "scale": ("", "SCALE_..., default SCALE_LOADS"),
         "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
         "part": ("", "load or drive of SCALE_PART"),
-        "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
-        "tolerance": ("-", "relative, of the factors, 1e-15 .. 0.1; default 1e-10"),
-        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): moves the string by a millionth of an element"),
+        "factor_max": ("unit of the factor", "not looked beyond, > 0; of factors, 1e-15 .. 0.1; default 1e12, 1e-10"),
+        "tolerance": ("-", "not looked beyond, > 0; of factors, 1e-15 .. 0.1; default 1e12, 1e-10"),
+        "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): by a millionth of an element"),
         "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
-        "slip_rotation": ("rad/s", ""),
+        "slip_rotation": ("rad/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
     }
     bounds = {
         "count": ("within", 1, 10000),
@@ -2994,16 +2994,16 @@ class SpeedsOptions(Sized):
     ]
     field_docs = {
         "points": ("-", "of the grid of speeds, 2 .. 1e5; default 200"),
-        "speed_low": ("rad/s", "> 0; default 1"),
-        "speed_high": ("rad/s", "> speed_low; default 30"),
-        "threshold": ("-", "severity above which a speed is to be avoided, > 0; default 1"),
-        "margin": ("-", "by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 0.03"),
+        "speed_low": ("rad/s", "> 0, the second above the first; default 1 and 30"),
+        "speed_high": ("rad/s", "> 0, the second above the first; default 1 and 30"),
+        "threshold": ("-", "severity above which a speed is to be avoided, > 0; by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 1, 0.03"),
+        "margin": ("-", "severity above which a speed is to be avoided, > 0; by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 1, 0.03"),
         "refinement": ("-", "as of a response, for each order; default 12"),
         "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
         "friction": ("", "and sliding has next to no slope"),
-        "contact_gap": ("m, -, -", "as of a response, same defaults"),
-        "structural_damping": ("m, -, -", "as of a response, same defaults"),
-        "equilibrium_tolerance": ("m, -, -", "as of a response, same defaults"),
+        "contact_gap": ("m", "as of a response, same defaults"),
+        "structural_damping": ("-", "as of a response, same defaults"),
+        "equilibrium_tolerance": ("-", "as of a response, same defaults"),
         "report": ("", "written where the call succeeds; NULL (default): none"),
         "unused": ("", "NULL"),
         "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses are out of balance there (equilibrium_tolerance)"),
@@ -3047,8 +3047,8 @@ class Row(Sized):
     field_docs = {
         "component": ("", "X .. RZ of the body-frame velocity"),
         "part": ("", "string or body that the node belongs to"),
-        "pipe": ("-", "of the string; the one before the node"),
-        "node": ("-", ""),
+        "pipe": ("-", "of the string, the one before the node; number of the node"),
+        "node": ("-", "of the string, the one before the node; number of the node"),
         "state": ("", "ROW_FREE, held by a support, or driven by a motion drive"),
     }
 
@@ -3076,14 +3076,14 @@ class TorqueDragOptions(Sized):
     field_docs = {
         "post_buckling": ("", "1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the compression F is above the load of helical buckling; 0: not"),
         "string": ("", "{0, 0}: the model's first string"),
-        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth"),
+        "friction": ("-", "coefficient of all the hole, 0 .. 10; NOT_GIVEN (default): the wall's mu_dynamic at each depth"),
         "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
         "depth_count": ("-", "1 .. 2^20; default 1"),
         "friction_by_depth": ("", "of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the factor on the wall's mu_dynamic at each depth (scene.h)"),
     }
     bounds = {
         "post_buckling": ("within", 0, 1),
-        "friction": ("minus_one_or", 0, 10),
+        "friction": ("not_given_or", 0, 10),
         "depth_count": ("within", 1, 1.04858e+06),
         "friction_by_depth": ("within", 0, 1),
     }
@@ -3102,7 +3102,7 @@ FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
 
 
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
-PARALLEL_FN.__doc__ = "Long strings on several cores, with threads of the caller's: dmb_sim_step and _advance call this function some ten times an iteration. It calls part(work, i) once for each i < count, in any threads and order, and returns 0 when all have returned; another value, or parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits in any number of parts, if all threads round to nearest and keep denormal numbers. A part needs 64 kB of stack and calls no callback. A part that still runs when the function returns, or that runs twice at once, is the caller's error and not always found. It is faster with threads that spin (start in 2 us): examples/two_cores."
+PARALLEL_FN.__doc__ = "Long strings on several cores, with threads of the caller's (examples/programming, Threads; examples/two_cores). It calls part(work, i) once for each i < count, in any threads and order, and returns 0 when all have returned; another value, or parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits in any number of parts."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
@@ -3211,32 +3211,32 @@ class WallDef(WallPart, Sized):
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
         "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
-        "origin": ("m", "start of the axis, world frame; default 0, shape (3)"),
-        "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0), shape (3)"),
+        "origin": ("m", "start of the axis, world frame; default 0"),
+        "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0)"),
         "diameter": ("m", "of the hole, > 0; default 0.094"),
-        "normal_law": ("", "NORMAL_..., default NORMAL_EXACT"),
-        "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
+        "normal_law": ("", "NORMAL_..., FRICTION_...; default NORMAL_EXACT, FRICTION_STRIBECK"),
+        "friction_law": ("", "NORMAL_..., FRICTION_...; default NORMAL_EXACT, FRICTION_STRIBECK"),
         "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them"),
         "exponent": ("-", "n, 1 .. 3; default 1"),
         "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
-        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
-        "impact_depth": ("m", "full damping from here on, of IMPACT; default 1e-4"),
+        "damping": ("N s/m2", "c a metre, of KELVIN_VOIGT, IMPACT; of IMPACT: full from here; default 0, 1e-4"),
+        "impact_depth": ("m", "c a metre, of KELVIN_VOIGT, IMPACT; of IMPACT: full from here; default 0, 1e-4"),
         "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more"),
         "mu_static": ("-", "largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks"),
         "mu_dynamic": ("-", ">= 0; default 0.30"),
-        "stribeck_speed": ("m/s", "> 0; default 1e-2"),
-        "smoothing_speed": ("m/s", "> 0; default 1e-3"),
+        "stribeck_speed": ("m/s", "> 0; default 1e-2, 1e-3"),
+        "smoothing_speed": ("m/s", "> 0; default 1e-2, 1e-3"),
         "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
-        "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
-        "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
+        "bristle_stiffness": ("1/m", "> 0; >= 0, tangential, over normal force; default 1e4, 0"),
+        "bristle_damping": ("s/m", "> 0; >= 0, tangential, over normal force; default 1e4, 0"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
-        "cut_start": ("m", "measured depth of the first of these stations and"),
-        "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
+        "cut_start": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; 0"),
+        "cut_end": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; 0"),
         "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
         "friction_state_count": ("-", "numbers of its state at a contact point, 0 .. 16; default 0"),
         "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
-        "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
+        "friction_table_mu": ("-", ">= 0, last > 0; straight between, constant beyond; shape as the speeds"),
         "friction_callback": ("", "of FRICTION_CALLBACK, required"),
         "friction_context": ("", ""),
         "friction_accept": ("", "for each contact point; NULL (default): none"),
@@ -3308,27 +3308,27 @@ class JointDef(Sized):
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
         "place_b": ("", "node, body or bit as place_a, not the ground"),
-        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
-        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
-        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
-        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
-        "axis_b": ("-", "shape (3)"),
-        "normal_b": ("-", "shape (3)"),
-        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b are ignored; 0 (default): frame b as given"),
+        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0"),
+        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0)"),
+        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place, or z if x is along that"),
+        "origin_b": ("m", "of frame b, in the frame of place b"),
+        "axis_b": ("-", "its x and y axis, as of a"),
+        "normal_b": ("-", "its x and y axis, as of a"),
+        "match": ("", "1: frame b is where frame a is as described, without origin_b, axis_b, normal_b; 0 (default): as given"),
         "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
         "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
-        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
-        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
-        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
-        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
+        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0"),
+        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0"),
+        "rest": ("m, rad", "where the springs are unstressed; default 0"),
+        "friction": ("N, N m", "independent of the reaction, >= 0; not there without FEATURE_FRICTION; default 0"),
         "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
-        "stop_low": ("m, rad", "default -1e30, shape (6)"),
-        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
-        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
-        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
+        "stop_low": ("m, rad", "stop_high > stop_low; default -UNLIMITED and UNLIMITED"),
+        "stop_high": ("m, rad", "stop_high > stop_low; default -UNLIMITED and UNLIMITED"),
+        "stop_stiffness": ("N/m, N m/rad", "> 0; in the stop, never pulling, >= 0; default 1e6, 0"),
+        "stop_damping": ("N s/m, N m s", "> 0; in the stop, never pulling, >= 0; default 1e6, 0"),
         "initial_mask": ("-", "set of coordinates that are given below, FREE_X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default FREE_NONE"),
-        "initial_position": ("m, rad", "at time 0, shape (6)"),
-        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
+        "initial_position": ("m, rad", "at time 0"),
+        "initial_speed": ("m/s, rad/s", "at time 0"),
     }
 
 
@@ -3395,11 +3395,11 @@ class LoadDef(Sized):
     field_docs = {
         "frame": ("", "FRAME_WORLD: dead load (default); FRAME_BODY: follower"),
         "place": ("", "any place of a pipe, or a body; inside an element it gets a node, which divides the element. Within a quarter of the pipe's diameter of a node it acts by the element's interpolation"),
-        "force": ("N", "in `frame`, shape (3)"),
-        "moment": ("N m", "in `frame`, shape (3)"),
+        "force": ("N", "in `frame`"),
+        "moment": ("N m", "in `frame`"),
         "time_function": ("-", "factor over time; {0, 0}: 1"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
-        "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
+        "offset": ("m", "of the point where it acts from the place, in its axes; default 0"),
     }
 
 
@@ -3440,18 +3440,18 @@ class SpringDef(SpringPart, Sized):
         ("table_kind", c_int32),
     ]
     field_docs = {
-        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
+        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, damper included; default SPRING_BOTH"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "place_a": ("", "part {0, 0} (default): the ground; not both"),
         "place_b": ("", "part {0, 0} (default): the ground; not both"),
-        "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
-        "offset_b": ("m", "shape (3)"),
-        "free_length": ("m", ">= 0; -1 (default): the length at time 0 as described, > 0"),
-        "stiffness": ("N/m", ">= 0; default 0"),
-        "damping": ("N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
+        "offset_a": ("m", "of the points from their places in their axes; ground: world; default 0"),
+        "offset_b": ("m", "of the points from their places in their axes; ground: world; default 0"),
+        "free_length": ("m", ">= 0; NOT_GIVEN (default): the length at time 0 as described, > 0"),
+        "stiffness": ("N/m", ">= 0; the damping not there without FEATURE_DAMPING; default 0"),
+        "damping": ("N s/m", ">= 0; the damping not there without FEATURE_DAMPING; default 0"),
         "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
         "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
-        "table_force": ("N", "shape (table_count); extended along its last slopes; of a one-sided spring it must not fall; copied"),
+        "table_force": ("N", "shape (table_count); extended along its last slopes; not falling if one-sided; copied"),
         "table_count": ("-", "0 (default): none; 2 .. 2^16"),
         "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points"),
     }
@@ -3497,12 +3497,12 @@ class ForceDef(ForcePart, Sized):
         "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "place_count": ("-", "of places and coordinates, 1 .. 4; default 1"),
-        "provides": ("", "PROVIDES_...; a tangent is held against differences when a sim is made (ERR_CALLBACK); default 0: built by differences"),
+        "provides": ("", "PROVIDES_...; a tangent is checked by dmb_sim_create (_CALLBACK); 0 (default): by differences"),
         "place": ("", "not the ground; or part is a joint: its coordinate; shape (place_count)"),
         "offset": ("m", "of each point from its place, in its axes, shape (place_count, 3); default 0"),
         "component": ("", "of a joint: X .. RZ, free in it; shape (place_count); default 0"),
-        "pose_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
-        "speed_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
+        "pose_step": ("m, rad", "of differences, 1e-12 .. 1; default 1e-5"),
+        "speed_step": ("m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
         "callback": ("", "required"),
         "callback_context": ("", ""),
         "state_count": ("-", "numbers of its state, 0 .. 65536, then without a potential; default 0"),
@@ -3543,8 +3543,8 @@ class StuckDef(Sized):
         "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
         "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
         "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
-        "overpull": ("N", "axial force, pull or push, at which it is released, > 0; default 0: never"),
-        "overtorque": ("N m", "torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad"),
+        "overpull": ("N", "axial force, pull or push; torque, either way, at which it is released, > 0, overtorque at most stiffness[1] times 1 rad; 0 (default): never, at 1 rad"),
+        "overtorque": ("N m", "axial force, pull or push; torque, either way, at which it is released, > 0, overtorque at most stiffness[1] times 1 rad; 0 (default): never, at 1 rad"),
     }
 
 
@@ -3578,7 +3578,7 @@ class Sub(Sized):
 
 
 class Output(Record):
-    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped sine, state space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (scene.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
+    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped sine, state space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives length and speed as outputs; dmb_query_motion_at has its motion."
     place: Place
     quantity: int
     reserved: int
@@ -3649,20 +3649,20 @@ class SimOptions(Sized):
         "log": ("", "NULL: silent"),
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the balancing forces"),
-        "tolerance_translation": ("m", "local error allowed in a step of dmb_sim_advance, > 0; default 1e-6"),
-        "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
-        "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
-        "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
+        "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the forces"),
+        "tolerance_translation": ("m", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "tolerance_rotation": ("rad", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "step_min": ("s", "shortest step of dmb_sim_advance and of a divided one, > 0; longest; default 1e-9, 0.1"),
+        "step_max": ("s", "shortest step of dmb_sim_advance and of a divided one, > 0; longest; default 1e-9, 0.1"),
         "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
         "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints, and fails if a stop or one-sided spring turns a body by more than a radian in it; for control loops; default 0"),
         "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),
-        "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
-        "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),
-        "parallel": ("", "NULL (default): steps are made in the thread of the call alone. Not for functions of Python, of which one runs at a time"),
+        "max_steps": ("-", "accepted steps in one dmb_sim_advance, then NOTE_STOPPED; 0 (default): no bound"),
+        "constraint_method": ("", "METHOD_..., algebra of joints in a step; default METHOD_INDEPENDENT"),
+        "parallel": ("", "NULL (default): steps are made in the thread of the call alone. Not for functions of Python"),
         "parallel_context": ("", ""),
-        "parallel_parts": ("-", "most parts at once, 1 .. 64; the equations of a chain have two; default 2"),
-        "parallel_least": ("-", "elements of a scene from which on `parallel` is called; default 1000"),
+        "parallel_parts": ("-", "most parts at once, 1 .. 64 (the equations of a chain have two); elements of a scene from which on `parallel` is called; default 2, 1000"),
+        "parallel_least": ("-", "most parts at once, 1 .. 64 (the equations of a chain have two); elements of a scene from which on `parallel` is called; default 2, 1000"),
         "assembly_energy": ("J", "most that dmb_sim_create may store in flexible pipes to close joints, >= 0; default 1e-3, the rounding of described places. More is ERR_GEOMETRY"),
     }
     bounds = {
@@ -3683,7 +3683,7 @@ class SimOptions(Sized):
 
 
 class ProfileRecorderStruct(Sized):
-    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
+    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------- Rows of whole profiles, at a coarser rate, in the caller's memory."
     struct_size: int
     reserved: int
     profile: Any
@@ -3703,10 +3703,10 @@ class ProfileRecorderStruct(Sized):
         ("interval", c_double),
     ]
     field_docs = {
-        "profile": ("", "quantities of a row; its `values` and strides are ignored. The caller's, kept alive by it and not changed once there is a row"),
-        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
-        "capacity": ("-", "rows of table"),
-        "row_count": ("-", "rows written; start with 0"),
+        "profile": ("", "quantities of a row, without `values` and strides; the caller's, kept alive and unchanged"),
+        "table": ("", "time [s], then quantity q at station i at 1 + i quantity_count + q; (capacity, 1 + stations quantities)"),
+        "capacity": ("-", "rows of table; rows written, start with 0"),
+        "row_count": ("-", "rows of table; rows written, start with 0"),
         "interval": ("s", "between rows, 0: every call"),
     }
 
@@ -3762,13 +3762,13 @@ class PathOptions(Sized):
         "component": ("", "of its displacement in the world, X (default) .. Z"),
         "branch": ("", "1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays"),
         "factor_end": ("unit of the factor", "ends there; the path begins towards it; not 0; default 1"),
-        "displacement_end": ("m", "ends there; default 1e30: nowhere"),
-        "first_step": ("unit of the factor", "> 0; 0 (default): a tenth of factor_end"),
-        "step_max": ("m", "longest arc from point to point, > 0; default 1e30"),
+        "displacement_end": ("m", "ends there; default UNLIMITED: nowhere"),
+        "first_step": ("unit of the factor", "> 0, 0: factor_end/10; longest arc, > 0; default 0, UNLIMITED"),
+        "step_max": ("m", "> 0, 0: factor_end/10; longest arc, > 0; default 0, UNLIMITED"),
         "branch_size": ("m", "arc of the first step on a branch; 0 (default): that of the step before"),
         "tolerance": ("-", "of the residual, as in dmb_static_options; default 1e-10"),
         "slip_axial": ("m/s", "friction as in dmb_static_options"),
-        "slip_rotation": ("rad/s", ""),
+        "slip_rotation": ("rad/s", "friction as in dmb_static_options"),
         "callback": ("", "may be NULL"),
         "callback_context": ("", ""),
     }
@@ -3812,15 +3812,15 @@ class Excitation(Sized):
     field_docs = {
         "kind": ("", "EXCITATION_..., default EXCITATION_FORCE"),
         "place": ("", "as the kind says"),
-        "component": ("", "X .. RZ, default X"),
-        "frame": ("", "FRAME_WORLD (default) or FRAME_BODY: axes of the place in the state"),
-        "amplitude": ("unit of the kind", "in the combined response; default 1"),
-        "phase": ("rad", "in the combined response; default 0"),
+        "component": ("", "X .. RZ, default X; FRAME_WORLD (default), _BODY: axes of the place"),
+        "frame": ("", "X .. RZ, default X; FRAME_WORLD (default), _BODY: axes of the place"),
+        "amplitude": ("unit of the kind", "in the combined response; default 1, 0"),
+        "phase": ("rad", "in the combined response; default 1, 0"),
     }
 
 
 class SubDef(Sized):
-    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues the string after it. The body's reference point and axes are those of the far end of the string as it is described so far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end, and of the section's rig end."
+    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor) at the far end of the string as it is described so far, and the section of pipes that continues the string `length` further along the body's x axis (examples/programming, Parts on strings). The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end."
     struct_size: int
     reserved: int
     string: Id
@@ -3875,14 +3875,14 @@ class EventDef(Sized):
         "direction": ("", "EVENT_..., default EVENT_RISING"),
         "name": ("", "required, unique among the events, ends with 0"),
         "output": ("", "as of a recorder; dmb_sim_create fails if the scene does not have it"),
-        "level": ("unit of the output", "default 0"),
-        "hold": ("s", "reported when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
+        "level": ("unit of the output", "reported when it has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
+        "hold": ("s", "reported when it has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
         "tolerance": ("s", "1e-12 .. 1, default 1e-9; no less than the rounding of time allows"),
     }
 
 
 class RecorderStruct(Sized):
-    c_name, about = "dmb_recorder", "For dmb_recorder_take, dmb_recorder_write_csv."
+    c_name, about = "dmb_recorder", "a window over outputs, below"
     struct_size: int
     output_count: int
     outputs: Any
@@ -3907,8 +3907,8 @@ class RecorderStruct(Sized):
         "output_count": ("-", "1 .. 4096"),
         "outputs": ("", "shape (output_count); the caller's, kept alive by it"),
         "table": ("", "shape (capacity, 1 + output_count); the caller's"),
-        "capacity": ("-", "rows of table"),
-        "row_count": ("-", "rows written; start with 0"),
+        "capacity": ("-", "rows of table; rows written, start with 0"),
+        "row_count": ("-", "rows of table; rows written, start with 0"),
         "interval": ("s", "between samples, 0: every call"),
         "window": ("", "of the outputs of a window, fed by the caller before; default NULL"),
     }

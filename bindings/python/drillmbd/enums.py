@@ -400,7 +400,7 @@ ATTACH_END = Attach.END
 class RockLaw(IntEnum):
     """Values DMB_ROCK_... of the headers.
 
-    RATE: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls, so that a bit that is slowed down stops at once, and sticks by nothing but its string: there steps may find no solution, however short. Where a bit may stick or bounce (undamped pipes, say) take the next one
+    RATE: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls: where a bit may stick or bounce (undamped pipes, say) steps may find no solution; take the next one
     REGENERATIVE: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
     """
     NONE = 0
@@ -416,28 +416,29 @@ ROCK_REGENERATIVE = RockLaw.REGENERATIVE
 class JointKind(IntEnum):
     """Values DMB_JOINT_... of the headers.
 
-    REVOLUTE: RX free
-    PRISMATIC: X free
-    CYLINDRICAL: X, RX free
-    UNIVERSAL: RY, RZ free: crossed axes y of a and z of b
-    SPHERICAL: RX, RY, RZ free
-    PLANAR: Y, Z, RX free: x is the normal of the plane
-    POINT_ON_LINE: X, RX, RY, RZ free: origin of b on the x axis of a
+    FIXED: none
+    REVOLUTE: RX
+    PRISMATIC: X
+    CYLINDRICAL: X, RX
+    SPHERICAL: RX, RY, RZ
+    UNIVERSAL: RY, RZ: crossed axes y of a and z of b
+    PLANAR: Y, Z, RX: x is the normal of the plane
+    POINT_ON_LINE: X, RX, RY, RZ: origin of b on the x axis of a
     POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (support, centraliser)
     DISTANCE: origins `length` apart
     FREE: holds nothing: carries springs, dampers, stops, friction
     KNIFE_EDGE: nonholonomic: the origin of b does not move along y of b (no lateral slip)
-    ROLLING: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
-    TRANSLATIONAL: X, Y, Z free: b does not turn against a
-    CROSS_SLIDE: Y, Z free: two slides across each other
-    SCHOENFLIES: X, Y, Z, RX free: x of b stays parallel to x of a
+    ROLLING: a rim of radius `length` about x of b rolls without slip on plane y, z of a, on the side x > 0
+    TRANSLATIONAL: X, Y, Z: b does not turn against a
+    CROSS_SLIDE: Y, Z: two slides across each other
+    SCHOENFLIES: X, Y, Z, RX: x of b stays parallel to x of a
     """
     FIXED = 0
     REVOLUTE = 1
     PRISMATIC = 2
     CYLINDRICAL = 3
-    UNIVERSAL = 4
     SPHERICAL = 5
+    UNIVERSAL = 4
     PLANAR = 6
     POINT_ON_LINE = 7
     POINT_ON_HOLE = 8
@@ -454,8 +455,8 @@ JOINT_FIXED = JointKind.FIXED
 JOINT_REVOLUTE = JointKind.REVOLUTE
 JOINT_PRISMATIC = JointKind.PRISMATIC
 JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
-JOINT_UNIVERSAL = JointKind.UNIVERSAL
 JOINT_SPHERICAL = JointKind.SPHERICAL
+JOINT_UNIVERSAL = JointKind.UNIVERSAL
 JOINT_PLANAR = JointKind.PLANAR
 JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
 JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
@@ -580,10 +581,15 @@ class InputTarget(IntEnum):
     """Values DMB_TARGET_... of the headers.
 
     SET_POINT: of a drive, instead of its time function; its excitation continues
+    GAIN: [N s/m, N m s], [N/m, N m] >= 0
     INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
+    LIMIT_LOW: [N, N m] the first below the second
     LIMIT_HIGH: [N, N m] the first below the second
+    LOAD_FACTOR: [-] of a load, [N] of a bit, replaces its time function
     BIT_LOAD: [-] of a load, [N] of a bit, replaces its time function
+    FRICTION: [-] factor of both coefficients of the wall, [kg/m3]
     FLUID_DENSITY: [-] factor of both coefficients of the wall, [kg/m3]
+    LATERAL_DAMPING: [N s/m2]
     AXIAL_DAMPING: [N s/m2]
     TORSIONAL_DAMPING: [N s]
     STUCK: [-] 1: a place is stuck from now on, 0: it is free
@@ -663,8 +669,8 @@ class Feature(IntFlag):
     EXCITATION = 16
     ROCK = 32
     DAMPING = 64
-    VIBRATION = 24
     ALL = 127
+    VIBRATION = 24
 
 
 FEATURE_GRAVITY = Feature.GRAVITY
@@ -674,8 +680,8 @@ FEATURE_ECCENTRICITY = Feature.ECCENTRICITY
 FEATURE_EXCITATION = Feature.EXCITATION
 FEATURE_ROCK = Feature.ROCK
 FEATURE_DAMPING = Feature.DAMPING
-FEATURE_VIBRATION = Feature.VIBRATION
 FEATURE_ALL = Feature.ALL
+FEATURE_VIBRATION = Feature.VIBRATION
 
 
 class ConstraintMethod(IntEnum):
@@ -724,9 +730,9 @@ class ProfileQuantity(IntEnum):
     NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact point
     FRICTION_AXIAL: [N/m] of the wall on the string along its axis
     FRICTION_AROUND: [N/m] of the wall on the string along axis x outward normal
-    VON_MISES: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
+    VON_MISES: [Pa] largest at the outer surface, by the diameters (eq:drilling.von-mises); with an inner_density or flow_rate of both surfaces, hoop stress too
     YIELD_SHARE: [-] of `yield_strength`; NaN where the pipe has none
-    SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in compression where neither weight nor curvature presses the pipe to the wall
+    SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in compression where nothing presses the pipe to the wall
     HELICAL_SHARE: [-] compression over the helical buckling load
     VELOCITY_AXIAL: [m/s] along the pipe's axis
     VELOCITY_LATERAL: [m/s] across, magnitude
@@ -736,12 +742,12 @@ class ProfileQuantity(IntEnum):
     ROTATION: [rad] about the pipe's axis since time 0, unwrapped
     DISPLACEMENT_X: [m] since time 0 as described, world frame
     DISPLACEMENT_Y: [m] since time 0 as described, world frame
-    DISPLACEMENT_Z: [m] since time 0 as described, world frame
+    DISPLACEMENT_Z: [m] the same
     SHEAR_Y: [N] section frame, as dmb_query_section
     SHEAR_Z: [N] section frame, as dmb_query_section
-    MOMENT_Y: [N m] bending about y, section frame
-    MOMENT_Z: [N m] bending about z, section frame
-    GAP: [m] of the nearest contact point to the wall, < 0 when penetrating; NaN without one
+    MOMENT_Y: [N m] bending about y, z; section frame
+    MOMENT_Z: [N m] bending about y, z; section frame
+    GAP: [m] of the nearest contact point, < 0 when penetrating; NaN without one
     """
     DISTANCE = 0
     DEPTH = 1
@@ -820,8 +826,14 @@ PROFILE_GAP = ProfileQuantity.GAP
 class Quantity(IntEnum):
     """Values DMB_OUTPUT_... of the headers.
 
+    DISPLACEMENT_X: [m] world
+    DISPLACEMENT_Y: [m] world
     DISPLACEMENT_Z: [m] world
+    VELOCITY_X: [m/s] world
+    VELOCITY_Y: [m/s] world
     VELOCITY_Z: [m/s] world
+    POSITION_X: [m] world
+    POSITION_Y: [m] world
     POSITION_Z: [m] world
     ROTATION: [rad] unwrapped
     SPIN: [rad/s] about the pipe's axis
@@ -882,26 +894,26 @@ OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
 class Reading(IntEnum):
     """Values DMB_OUTPUT_... of the headers.
 
-    HOOK_LOAD: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
+    HOOK_LOAD: [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls
     ROTATION_TORQUE: [N m] that the rig puts into that section, > 0 along the string's x axis
     WEIGHT_ON_BIT: [N] of all bits on the string: rock law and bottom-hole load
     TORQUE_ON_BIT: [N m] of all bits on the string: rock law, against the rotation
-    RATE_OF_PENETRATION: [m/s] of the string's first bit along the hole, > 0 into it; with a rock law 0 while it is off bottom. The rate of dmb_bit_state.advance
+    RATE_OF_PENETRATION: [m/s] of the string's first bit into the hole; with a rock law 0 while off bottom
     BIT_SPEED: [rad/s] about its axis, of the string's far end
     BIT_DEPTH: [m] measured depth of the string's far end; 0 without a hole
     ROTARY_SPEED: [rad/s] about its axis, of the string's rig end
     FEED_SPEED: [m/s] along its axis, of the string's rig end, > 0 into the hole
     STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
     WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
-    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
-    RIG_FORCE: [N] that support and drives pull the rig end with: hook load, and of the end itself inertia, weight, friction; 0 where a joint holds it
+    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0
+    RIG_FORCE: [N] by support and drives on the rig end, > 0 the rig pulls; 0 where a joint holds it
     RIG_TORQUE: [N m] by support and drives, > 0 along the string's x axis
     BIT_ADVANCE: [m]
     BIT_BOTTOM: [m]
     BIT_DEPTH_OF_CUT: [m]
-    BIT_ROCK_WEIGHT: [N] of the rock law alone
+    BIT_ROCK_WEIGHT: [N] of the rock law alone; bottom-hole load
+    BIT_LOAD: [N] of the rock law alone; bottom-hole load
     BIT_TORQUE: [N m]
-    BIT_LOAD: [N]
     BIT_ON_BOTTOM: [-] 1 or 0
     STUCK: [-] 1 or 0
     STUCK_FORCE: [N] axial
@@ -926,12 +938,39 @@ class Reading(IntEnum):
     CONTACTS_FRICTION_AXIAL: [N]
     CONTACTS_FRICTION_AROUND: [N]
     CONTACTS_DEEPEST: [m]
-    ENERGY_KINETIC: [J] dmb_query_energy, O(nodes)
-    MOMENTUM_X: [kg m/s] world, 180 .. 182: dmb_query_momentum, O(nodes)
-    ANGULAR_MOMENTUM_X: [kg m2/s] world, 183 .. 185
+    ENERGY_KINETIC: [J]
+    ENERGY_STRAIN: [J]
+    ENERGY_GRAVITY: [J]
+    ENERGY_CONTACT: [J]
+    ENERGY_DRIVES: [J]
+    ENERGY_LOADS: [J]
+    ENERGY_FRICTION: [J]
+    ENERGY_IMPACT: [J]
+    ENERGY_DAMPING: [J]
+    ENERGY_ROCK: [J]
+    ENERGY_SCHEME: [J]
+    ENERGY_INPUT: [J]
+    ENERGY_BALANCE: [J]
+    ENERGY_UNEXPLAINED: [J]
+    MOMENTUM_X: [kg m/s] linear, world
+    MOMENTUM_Y: [kg m/s] linear, world
+    MOMENTUM_Z: [kg m/s] linear, world
+    ANGULAR_MOMENTUM_X: [kg m2/s] about the world's origin, world
+    ANGULAR_MOMENTUM_Y: [kg m2/s] about the world's origin, world
+    ANGULAR_MOMENTUM_Z: [kg m2/s] the same
     MASS: [kg]
-    CENTRE_X: [m] of mass, world, 187 .. 189
+    CENTRE_X: [m] of mass, world
+    CENTRE_Y: [m] of mass, world
+    CENTRE_Z: [m] of mass, world
     STEPS: [-] dmb_query_statistics, O(joints)
+    REJECTED: [-] dmb_query_statistics, O(joints)
+    ITERATIONS: [-] dmb_query_statistics, O(joints)
+    LIMITED_STEPS: [-]
+    MOST_ITERATIONS: [-]
+    LARGEST_RESIDUAL: [-]
+    SWITCHES: [-]
+    DEPENDENT: [-]
+    REDUNDANT: [-]
     VIOLATION: [m, -] of all joints
     SPRING_LENGTH: [m]
     SPRING_ELONGATION: [m]
@@ -943,27 +982,36 @@ class Reading(IntEnum):
     INPUT_PRESENT: [unit of the input] in force now
     INPUT_RATE: [unit of the input/s] of that
     INPUT_VALUE: [unit of the input] set point
-    JOINT_POSITION: [m, rad]
-    JOINT_SPEED: [m/s, rad/s]
-    JOINT_ACCELERATION: [m/s2, rad/s2]
-    JOINT_REACTION: [N, N m] world
-    JOINT_REACTION_BODY: [N, N m] frame b
+    JOINT_POSITION: [m, rad]; 1/s; 1/s2
+    JOINT_SPEED: [m, rad]; 1/s; 1/s2
+    JOINT_ACCELERATION: [m, rad]; 1/s; 1/s2
+    JOINT_REACTION: [N, N m] world; (_BODY) frame b
+    JOINT_REACTION_BODY: [N, N m] world; (_BODY) frame b
     JOINT_ACTION: [N, N m]
     JOINT_VIOLATION: [m, -]
-    JOINT_STATE: [-] JOINT_...
-    JOINT_ROWS: [-]
+    JOINT_STATE: [-] JOINT_...; equations it holds now
+    JOINT_ROWS: [-] JOINT_...; equations it holds now
     MULTIPLIER: [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six
     REACTION: [N, N m] of a string or body: dmb_query_reaction; six
     SECTION_FORCE: [N, N m] dmb_query_section
     SECTION_STRAIN: [-, rad/m]
     WORLD_VELOCITY: [m/s, rad/s] dmb_query_motion
+    BODY_VELOCITY: [m/s, rad/s] dmb_query_motion
     WORLD_ACCELERATION: [m/s2, rad/s2]
-    BODY_VELOCITY: [m/s, rad/s]
     BODY_ACCELERATION: [m/s2, rad/s2]
     VIBRATION: [m, rad] displacement from the state
+    VIBRATION_BODY: [m, rad] displacement from the state
     VIBRATION_VELOCITY: [m/s, rad/s] its rate
+    VIBRATION_VELOCITY_BODY: [m/s, rad/s] its rate
     VIBRATION_ACCELERATION: [m/s2, rad/s2]
+    VIBRATION_ACCELERATION_BODY: [m/s2, rad/s2]
     PROFILE: + PROFILE_...: at a place of a string; as dmb_query_profile, NaN included
+    WINDOW_MINIMUM: [its unit]
+    WINDOW_MAXIMUM: [its unit]
+    WINDOW_MEAN: [its unit]
+    WINDOW_RMS: [its unit]
+    STICK_SLIP_INDEX: [-] index, low_share of dmb_window_result
+    WINDOW_LOW_SHARE: [-] index, low_share of dmb_window_result
     """
     HOOK_LOAD = 100
     ROTATION_TORQUE = 101
@@ -983,8 +1031,8 @@ class Reading(IntEnum):
     BIT_BOTTOM = 121
     BIT_DEPTH_OF_CUT = 122
     BIT_ROCK_WEIGHT = 123
-    BIT_TORQUE = 124
     BIT_LOAD = 125
+    BIT_TORQUE = 124
     BIT_ON_BOTTOM = 126
     STUCK = 127
     STUCK_FORCE = 128
@@ -1067,8 +1115,8 @@ class Reading(IntEnum):
     SECTION_FORCE = 400
     SECTION_STRAIN = 410
     WORLD_VELOCITY = 420
-    WORLD_ACCELERATION = 430
     BODY_VELOCITY = 440
+    WORLD_ACCELERATION = 430
     BODY_ACCELERATION = 450
     VIBRATION = 460
     VIBRATION_BODY = 470
@@ -1103,8 +1151,8 @@ OUTPUT_BIT_ADVANCE = Reading.BIT_ADVANCE
 OUTPUT_BIT_BOTTOM = Reading.BIT_BOTTOM
 OUTPUT_BIT_DEPTH_OF_CUT = Reading.BIT_DEPTH_OF_CUT
 OUTPUT_BIT_ROCK_WEIGHT = Reading.BIT_ROCK_WEIGHT
-OUTPUT_BIT_TORQUE = Reading.BIT_TORQUE
 OUTPUT_BIT_LOAD = Reading.BIT_LOAD
+OUTPUT_BIT_TORQUE = Reading.BIT_TORQUE
 OUTPUT_BIT_ON_BOTTOM = Reading.BIT_ON_BOTTOM
 OUTPUT_STUCK = Reading.STUCK
 OUTPUT_STUCK_FORCE = Reading.STUCK_FORCE
@@ -1187,8 +1235,8 @@ OUTPUT_REACTION = Reading.REACTION
 OUTPUT_SECTION_FORCE = Reading.SECTION_FORCE
 OUTPUT_SECTION_STRAIN = Reading.SECTION_STRAIN
 OUTPUT_WORLD_VELOCITY = Reading.WORLD_VELOCITY
-OUTPUT_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
 OUTPUT_BODY_VELOCITY = Reading.BODY_VELOCITY
+OUTPUT_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
 OUTPUT_BODY_ACCELERATION = Reading.BODY_ACCELERATION
 OUTPUT_VIBRATION = Reading.VIBRATION
 OUTPUT_VIBRATION_BODY = Reading.VIBRATION_BODY
@@ -1208,7 +1256,7 @@ OUTPUT_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 class Steady(IntEnum):
     """Values DMB_STEADY_... of the headers.
 
-    AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
+    AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY where neither is steady
     AT_REST: all is at rest; only components of motion drives have their speed
     SLIDING: axes at rest; strings slide along the hole and turn about their axis as drives say
     RIGID: all turns about one fixed axis like a rigid body, under centrifugal forces
@@ -1254,7 +1302,7 @@ class Scale(IntEnum):
 
     ALL: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
     LOADS: the same without gravity
-    PART: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
+    PART: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, not held by joints, springs or forces at several parts (ERR_UNSUPPORTED)
     """
     ALL = 0
     LOADS = 1
@@ -1381,14 +1429,14 @@ MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 class ExcitationKind(IntEnum):
     """Values DMB_EXCITATION_... of the headers.
 
-    DRIVE: time function of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
+    DRIVE: time function of the drive place.part [its unit]: speed of MOTION, CONTROL, force of LOAD
     LOAD: [-] factor of the load place.part
     BIT_LOAD: [N] bottom-hole load of the bit place.part
     FORCE: [N, N m] `component` of a force or moment at `place`, in `frame`
     UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
     FRICTION: [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
-    SETTING: the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
+    SETTING: the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED
     """
     DRIVE = 0
     LOAD = 1
@@ -1460,7 +1508,7 @@ class Matrix(IntEnum):
     D: shape (outputs, inputs)
     DAMPING: with gyroscopic terms
     STIFFNESS: each by all rows, body-frame displacements; shape (rows, rows)
-    JACOBIAN: of the equations of joints, couplings, constraints and joint drives that act; shape (constraint_rows, rows)
+    JACOBIAN: of the equations that act; shape (constraint_rows, rows)
     COORDINATES: R of d = R z, z the independent coordinates; shape (rows, independent)
     """
     A = 0
@@ -1561,6 +1609,8 @@ MEASURED_TORQUE = Measured.TORQUE
 
 NONE = 0xFFFFFFFF
 COMBINED = 0xFFFFFFFF
+NOT_GIVEN = -1
+UNLIMITED = 1e30
 
 ENUMS = (
     Status,

@@ -236,7 +236,7 @@ static void refuse_number(const dmb_field_list *list, const dmb_def_field *field
     assert_string_equal(error.field, field->name);
     assert_int_equal(error.component, is_array ? (uint32_t)i : DMB_NONE);
     if (isfinite(value)) assert_true(fabs(error.value - value) <= 0.0);
-    const int is_range = field->bound >= DMB_BOUND_WITHIN && field->bound <= DMB_BOUND_MINUS_ONE_OR;
+    const int is_range = field->bound >= DMB_BOUND_WITHIN && field->bound <= DMB_BOUND_NOT_GIVEN_OR;
     if (is_range && !(fabs(error.low - field->low) <= 0.0 && fabs(error.high - field->high) <= 0.0))
         fail_msg("%s, %s: range %g .. %g, must be %g .. %g", list->word, field->name, error.low, error.high, field->low,
                  field->high);
@@ -262,8 +262,8 @@ static void refuse_numbers(const dmb_field_list *list, const dmb_def_field *fiel
 
 static void accept_numbers(const dmb_field_list *list, const dmb_def_field *field, size_t i)
 {
-    const double values[] = {field->low, field->high, field->bound == DMB_BOUND_MINUS_ONE_OR ? -1.0 : 0.0};
-    const int count = field->bound == DMB_BOUND_ZERO_OR || field->bound == DMB_BOUND_MINUS_ONE_OR ? 3 : 2;
+    const double values[] = {field->low, field->high, field->bound == DMB_BOUND_NOT_GIVEN_OR ? -1.0 : 0.0};
+    const int count = field->bound == DMB_BOUND_ZERO_OR || field->bound == DMB_BOUND_NOT_GIVEN_OR ? 3 : 2;
     definition def;
     fresh();
     good(list, &def);

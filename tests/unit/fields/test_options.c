@@ -132,8 +132,8 @@ static void check_field(const dmb_field_list *list, const dmb_def_field *field)
     const double step = is_real(field) ? 0.5 * fabs(field->low) + (field->low == 0.0) : 1.0;
     const bool unsigned_from_zero = field->type == DMB_TYPE_COUNT && field->low < 1.0;
     const bool above = field->bound == DMB_BOUND_ABOVE;
-    if (!unsigned_from_zero && field->bound != DMB_BOUND_MINUS_ONE_OR) refuse(list, field, field->low - step);
-    if (field->bound == DMB_BOUND_MINUS_ONE_OR) refuse(list, field, -0.5);
+    if (!unsigned_from_zero && field->bound != DMB_BOUND_NOT_GIVEN_OR) refuse(list, field, field->low - step);
+    if (field->bound == DMB_BOUND_NOT_GIVEN_OR) refuse(list, field, -0.5);
     if (above) refuse(list, field, field->low);
     if (!above) refuse(list, field, is_real(field) ? 1.5 * field->high : field->high + 1.0);
     if (is_real(field)) refuse(list, field, (double)NAN);
