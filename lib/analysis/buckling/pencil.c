@@ -92,8 +92,9 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
     return 1;
 }
 
-/* If a block is singular at a factor although the whole is not, the factor changes: by this fraction of itself, and at
- * 0 by a factor that changes K in the same digits. */
+/* If a block is singular at a factor although the whole is not, the factor changes: by this fraction of itself; where
+ * that does not help, as beside a limit point, where K is singular to rounding, by a factor that changes K in the same
+ * digits. */
 #define DMB_ASIDE 1e-13
 #define DMB_ASIDE_TRIES 8
 
@@ -109,11 +110,13 @@ static double size_of(const dmb_pencil *pencil, const dmb_pencil_matrix *A)
     return largest(reduced_values(pencil->scene), A->jointed, largest(layout->diag[layout->n], A->diagonal, 0.0));
 }
 
-static double aside_of(const dmb_pencil *pencil, double factor)
+/* Try number k >= 1 beside a factor. */
+static double aside_of(const dmb_pencil *pencil, double factor, int k)
 {
-    if (factor != 0.0) return DMB_ASIDE * factor;
+    const int relative = factor != 0.0 && k <= DMB_ASIDE_TRIES / 2;
+    if (relative) return k * DMB_ASIDE * factor;
     const double G = size_of(pencil, &pencil->G);
-    return G > 0.0 ? DMB_ASIDE * size_of(pencil, &pencil->K) / G : 0.0;
+    return G > 0.0 ? k * DMB_ASIDE * size_of(pencil, &pencil->K) / G : 0.0;
 }
 
 int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
@@ -121,7 +124,7 @@ int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
     *count = 0;
     if (dmb_progress_pulse(pencil->sim) < 0) return 0;
     for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
-        shift(pencil, k == 0 ? factor : factor + k * aside_of(pencil, factor));
+        shift(pencil, k == 0 ? factor : factor + aside_of(pencil, factor, k));
         if (count_shifted(pencil, count)) return 1;
     }
     *count = 0;
