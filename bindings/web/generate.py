@@ -232,7 +232,10 @@ def declarations(reader, layouts, found):
 
 def constants(reader):
     found = {name: value for _, members in reader.enums() for name, value, _ in members}
-    return {**found, **{name: 0xFFFFFFFF for name in re.findall(r"^#define DMB_(\w+) UINT32_MAX", reader.text, re.M)}}
+    found.update({name: 0xFFFFFFFF for name in re.findall(r"^#define DMB_(\w+) UINT32_MAX", reader.text, re.M)})
+    for name, value in re.findall(r"^#define DMB_(NOT_GIVEN|UNLIMITED) (\S+)", reader.text, re.M):
+        found[name] = float(value.strip("()"))
+    return found
 
 
 # ---- Files -----------------------------------------------------------------------------------------------------------

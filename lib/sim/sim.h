@@ -105,7 +105,8 @@ typedef struct dmb_drive_variables {
                                                    analysis/state_equation/state_equation_pose */                     \
     X(double, joint_depth, j, NUMBERS)          /* [m] measured depth of the point of a joint on the hole's axis */   \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
-    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
+    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual; put back by        \
+       analysis/static/softest: */                                                                                    \
     X(double, multiplier, c, NUMBERS)           /* [N, N m] residual + B^T multiplier = 0 */
 /* clang-format on */
 
@@ -198,7 +199,8 @@ typedef struct dmb_drive_variables {
     X(dmb_rotor_step, rotor_step, ro)           /* of bodies on joints that may spin: system/constrain/rotor */       \
     /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint                     \
        system/constrain/cluster, system/constrain/sparse_cluster, of rotors system/constrain/rotor; torques of        \
-       free rotations taken out by analysis/static/static_spin; factors in their place by system/solve/solve: */      \
+       free rotations taken out by analysis/static/static_spin; shifted by analysis/static/softest; factors in        \
+       their place by system/solve/solve: */                                                                          \
     X(double, residual, r)                      /* [N, N m] of the trial */                                           \
     X(double, correction, r)                    /* [m, rad] solution of the linear system: of Newton, or with the     \
                                                    mass matrix [m/s2, rad/s2] of accelerations:                       \

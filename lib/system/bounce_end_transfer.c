@@ -42,15 +42,18 @@ static void take_age(dmb_sim *sim, uint32_t u, const dmb_sim *from, uint32_t old
     if (sim->bounce_age[u] != 0.0 && from->bounce_age[old] != 0.0) sim->bounce_age[u] = from->bounce_age[old];
 }
 
-/* Ages by joint and spring: laws are numbered differently if a joint has stops in one of the scenes only, and a scene
- * where nothing may open has none. */
+/* Ages of stops and springs by joint, and of springs between points: laws are numbered differently if a joint has them
+ * in one of the scenes only, and a scene where nothing may have a mean force has none. */
 static void take_ages(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
     if (scene->unilateral_count == 0 || was->unilateral_count == 0) return;
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const uint32_t law = scene->joints[j].law, old = was->joints[j].law;
-        for (uint32_t k = 0; k < 6 && law != DMB_NONE && old != DMB_NONE; k++) take_age(sim, law + k, from, old + k);
+        for (uint32_t k = 0; k < 6 && law != DMB_NONE && old != DMB_NONE; k++) {
+            take_age(sim, law + k, from, old + k);
+            take_age(sim, dmb_bounce_of_law(scene, law + k), from, dmb_bounce_of_law(was, old + k));
+        }
     }
     for (uint32_t i = 0; i < scene->spring_count; i++)
         take_age(sim, dmb_bounce_of_spring(scene, i), from, dmb_bounce_of_spring(was, i));

@@ -59,7 +59,7 @@ def _same_interface(folder: pathlib.Path) -> None:
     found = re.search(r"^export const CONSTANTS = (\{.*\});$", (folder / "interface.mjs").read_text(encoding="utf-8"),
                       re.M)
     known = json.loads(found[1]) if found else {}
-    ours = {name: int(value) for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)}
+    ours = {name: value for name, value in vars(enums).items() if name.isupper() and isinstance(value, (int, float))}
     other = sorted(name for name in ours.keys() | known.keys() if known.get(name) != ours.get(name))
     if other:
         raise Usage(f"live page refused: {folder} was built of another version of the library ({len(other)} constants "

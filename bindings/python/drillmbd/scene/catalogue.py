@@ -216,8 +216,8 @@ class Catalogue:
         match = re.fullmatch(  # size, wall thickness, unit, grade
             rf"(.*?{_NUMBER}\s*(?:[^\W\d]*|\"))\s*[x×*]\s*({_NUMBER})\s*(mm|cm|in|inch|\")?(?:\s+(.*))?",
             plain(name).strip(), re.I)
-        unit = match and (re.search(r"(mm|cm|inch|in|m|\")?\s*$", match[1], re.I)[1] or match[3]
-                          or  # type: ignore[index]
+        unit = match and (re.search(r"(mm|cm|inch|in|m|\")?\s*$", match[1], re.I)[1]  # type: ignore[index]
+                          or match[3] or
                           ("mm" if re.match(r"\s*(phi|dia|[φΦϕøØ⌀∅]|直径)", match[1], re.I) else None))
         if match is None or not unit:
             raise CatalogueError(self._unknown(key_of(name)))

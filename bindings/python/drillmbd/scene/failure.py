@@ -264,6 +264,6 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     parts = {one for kind in KINDS.values() for one in kind.needs}
     about = "; ".join(f"{word} [{kind.unit}]: {kind.about}" + (f" (limit: {kind.source})" if kind.source else "")
                       for word, kind in KINDS.items())
-    return many(table({}, ("kind",), name=name,
-                      kind={"enum": list(KINDS), "description": about},  # type: ignore[no-any-return]
+    return many(table({}, ("kind",), name=name,  # type: ignore[no-any-return]
+                      kind={"enum": list(KINDS), "description": about},
                       **{key: quantity for key in sorted(keys)}, **{key: name for key in sorted(parts)}))
