@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "math/vec3.h"
 #include "model/field_check.h"
 
 /* ---- Mud that flows ---------------------------------------------------------------------------------------------- */
@@ -210,25 +211,63 @@ static const dmb_rigid_mass *rigid_mass_on(const dmb_scene *scene, uint32_t node
     return low < scene->rigid_mass_count && scene->rigid_masses[low].node == node ? scene->rigid_masses + low : NULL;
 }
 
-/* Torsional inertia of the elements beside a node; of a node without elements the least moment of inertia. */
-static double inertia_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass *rigid)
+/* [kg m2] Torsional inertia of the elements beside a node. */
+static double torsion_beside(const dmb_scene *scene, uint32_t node)
 {
     double inertia = 0.0;
     for (uint32_t k = node == 0 ? 1 : 0; k < 2; ++k) {
         const uint32_t e = scene->node_element[node - (k == 0)];
         if (e != DMB_NONE) inertia += scene->types[scene->element_type[e]].mass.torsion[0];
     }
-    if (inertia > 0.0 || rigid == NULL) return inertia;
-    return fmin(rigid->inertia[0], fmin(rigid->inertia[1], rigid->inertia[2]));
+    return inertia;
 }
 
-double dmb_node_mobility(const dmb_scene *scene, uint32_t node, double arm)
+/* Inverse of the inertia about the centre of mass c, J - m (c.c I - c c^T). 0 if it has none. */
+static int invert_inertia(const dmb_rigid_mass *rigid, const double c[3], double inverse[9])
+{
+    const double *J = rigid->inertia, m = rigid->mass, square = dmb_vec3_norm_squared(c);
+    const double xx = J[0] - m * (square - c[0] * c[0]), xy = J[3] + m * c[0] * c[1];
+    const double yy = J[1] - m * (square - c[1] * c[1]), xz = J[4] + m * c[0] * c[2];
+    const double zz = J[2] - m * (square - c[2] * c[2]), yz = J[5] + m * c[1] * c[2];
+    const double cofactor[9] = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
+                                xz * yz - xy * zz, xx * zz - xz * xz, xy * xz - xx * yz,
+                                xy * yz - xz * yy, xy * xz - xx * yz, xx * yy - xy * xy};
+    const double determinant = xx * cofactor[0] + xy * cofactor[1] + xz * cofactor[2];
+    for (int i = 0; i < 9; i++) inverse[i] = cofactor[i] / determinant;
+    return determinant > 0.0;
+}
+
+/* 1/m + the largest eigenvalue of r~^T J^-1 r~, r = x - c, which has rank 2: from its trace and its norm. The norm of
+ * J^-1 for a couple. Infinite for inertias that vanish to rounding, 1/m for none. */
+static double rigid_mobility(const dmb_rigid_mass *rigid, const double *x)
+{
+    const double *J = rigid->inertia;
+    const double of_mass = x != NULL && rigid->mass > 0.0 ? 1.0 / rigid->mass : 0.0;
+    double c[3], r[3], skew[9], inverse[9], half[9], whole[9], norm = 0.0;
+    if (!(J[0] + J[1] + J[2] > 0.0)) return of_mass;
+    for (int i = 0; i < 3; i++) c[i] = rigid->mass > 0.0 ? rigid->moment[i] / rigid->mass : 0.0;
+    if (!invert_inertia(rigid, c, inverse)) return (double)INFINITY;
+    for (int i = 0; i < 9; i++) norm += inverse[i] * inverse[i];
+    if (x == NULL) return sqrt(norm);
+    dmb_vec3_sub(x, c, r);
+    dmb_skew(r, skew);
+    dmb_mat3_mul(inverse, skew, half);
+    dmb_mat3_mul_tn(skew, half, whole);
+    const double trace = whole[0] + whole[4] + whole[8];
+    norm = 0.0;
+    for (int i = 0; i < 9; i++) norm += whole[i] * whole[i];
+    return of_mass + 0.5 * (trace + sqrt(fmax(2.0 * norm - trace * trace, 0.0)));
+}
+
+double dmb_node_mobility(const dmb_scene *scene, uint32_t node, const double *x)
 {
     const dmb_rigid_mass *rigid = rigid_mass_on(scene, node);
+    const double torsion = torsion_beside(scene, node);
+    if (!(torsion > 0.0) && rigid != NULL) return rigid_mobility(rigid, x);
     const double mass = mass_beside(scene, node) + (rigid != NULL ? rigid->mass : 0.0);
-    const double inertia = inertia_of(scene, node, rigid), of_turn = inertia > 0.0 ? 1.0 / inertia : 0.0;
-    if (isinf(arm)) return of_turn;
-    return (mass > 0.0 ? 1.0 / mass : 0.0) + arm * arm * of_turn;
+    const double of_turn = torsion > 0.0 ? 1.0 / torsion : 0.0;
+    if (x == NULL) return of_turn;
+    return (mass > 0.0 ? 1.0 / mass : 0.0) + dmb_vec3_norm_squared(x) * of_turn;
 }
 
 /* 1/m, m being half of the elements beside the node and what is rigid on it; inside an element half of that. For bodies

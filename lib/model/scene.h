@@ -397,9 +397,9 @@ static inline int32_t dmb_scene_has_touch(const dmb_scene *scene)
     return scene->normal_law.kind == DMB_NORMAL_KELVIN_VOIGT;
 }
 
-/* [1/kg, 1/(kg m2)] Bound of J M^-1 J^T of a force at the distance arm [m] from a node, from the adjacent mass;
- * infinite: of a couple. Model/scene. */
-double dmb_node_mobility(const dmb_scene *scene, uint32_t node, double arm);
+/* [1/kg] Bound of J M^-1 J^T of a force at the point x [m] of a node, in its axes, from the adjacent mass; x NULL:
+ * [1/(kg m2)] of a couple. Model/scene. */
+double dmb_node_mobility(const dmb_scene *scene, uint32_t node, const double *x);
 /* [1/kg] J M^-1 J^T of the normal force of a contact point, from the adjacent mass: model/scene. */
 double dmb_site_mobility(const dmb_scene *scene, uint32_t site);
 

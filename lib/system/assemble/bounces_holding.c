@@ -10,30 +10,39 @@
 
 #include "math/vec3.h"
 #include "system/assemble/assemble.h"
+#include "system/constrain/constrain.h"
 
 /* [rad] rotation of the gradient in a step, and [-] (h w)^2 of the law on the adjacent mass, above which it has a mean
  * force */
 #define DMB_HOLD_TURN 0.01
 #define DMB_HOLD_RESOLVED 1.0
 
-/* Nodes that a law acts on, and the arms [m] of its force there; infinite: it is a couple. */
+/* Nodes that a law acts on, and the points [m] of its force there. */
 typedef struct law_nodes {
     uint32_t node[2];
-    double arm[2];
+    double x[2][3];
+    int is_couple;
 } law_nodes;
 
-static law_nodes nodes_of(const dmb_scene *scene, uint32_t u)
+static law_nodes nodes_of_spring(const dmb_scene *scene, uint32_t spring)
 {
-    const uint32_t law = dmb_bounce_law_of(scene, u);
-    if (law == DMB_NONE) {
-        const dmb_scene_spring *s = scene->springs + (u - scene->law_count);
-        const law_nodes of = {{s->a.node, s->b.node}, {dmb_vec3_norm(s->a.x), dmb_vec3_norm(s->b.x)}};
-        return of;
-    }
-    const dmb_scene_joint *j = scene->joints + dmb_bounce_joint_of(scene, law);
-    const double couple = law % 6 >= 3 ? (double)INFINITY : 0.0;
-    const law_nodes of = {{j->a.node, j->b.node},
-                          {fmax(couple, dmb_vec3_norm(j->a.x)), fmax(couple, dmb_vec3_norm(j->b.x))}};
+    const dmb_scene_spring *s = scene->springs + spring;
+    law_nodes of = {.node = {s->a.node, s->b.node}};
+    dmb_vec3_copy(s->a.x, of.x[0]);
+    dmb_vec3_copy(s->b.x, of.x[1]);
+    return of;
+}
+
+/* Both forces of a joint act at the origin of its frame b. */
+static law_nodes nodes_of_joint(const dmb_sim *sim, uint32_t joint)
+{
+    const dmb_scene_joint *j = sim->scene->joints + joint;
+    law_nodes of = {.node = {j->a.node, j->b.node}};
+    dmb_relative relative;
+    dmb_joint_motion_of(sim->scene, &sim->now, joint, &relative, NULL);
+    dmb_mat3_vec(j->a.M, relative.p, of.x[0]);
+    dmb_vec3_add(of.x[0], j->a.x, of.x[0]);
+    dmb_vec3_copy(j->b.x, of.x[1]);
     return of;
 }
 
@@ -44,7 +53,8 @@ static int is_stiff(const dmb_sim *sim, uint32_t u, const law_nodes *of, double 
     dmb_unilateral_end end;
     dmb_bounce_end_at(sim->scene, u, sim->now.bounce_place[u], &end);
     for (int k = 0; k < 2; k++)
-        if (of->node[k] != DMB_NONE) mobility += dmb_node_mobility(sim->scene, of->node[k], of->arm[k]);
+        if (of->node[k] != DMB_NONE)
+            mobility += dmb_node_mobility(sim->scene, of->node[k], of->is_couple ? NULL : of->x[k]);
     return h * h * end.slope * mobility > DMB_HOLD_RESOLVED;
 }
 
@@ -82,18 +92,49 @@ static int may_hold(const dmb_scene *scene, uint32_t u)
     return dmb_bounce_holds(scene, u) || (dmb_bounce_can_open(scene, u) && dmb_bounce_damping(scene, u) == 0.0);
 }
 
-static int is_turning(const dmb_sim *sim, uint32_t u, double h, int reached)
+static int turns(const dmb_sim *sim, const uint32_t node[2], double h, int reached)
 {
-    const law_nodes of = nodes_of(sim->scene, u);
-    if (!may_hold(sim->scene, u) || !is_stiff(sim, u, &of, h)) return 0;
     for (int k = 0; k < 2; k++)
-        if (turn_of(sim, of.node[k], h, reached) > DMB_HOLD_TURN) return 1;
-    if (dmb_bounce_law_of(sim->scene, u) != DMB_NONE) return 0;
-    return turn_of_line(sim, u - sim->scene->law_count, h, reached) > DMB_HOLD_TURN;
+        if (turn_of(sim, node[k], h, reached) > DMB_HOLD_TURN) return 1;
+    return 0;
+}
+
+static void mark(dmb_sim *sim, uint32_t u, int turning, int reached)
+{
+    if (!reached || turning) sim->bounce_turns[u] = (uint8_t)turning;
+}
+
+/* Laws of a joint that is open have no force. */
+static void mark_joint(dmb_sim *sim, uint32_t joint, double h, int reached)
+{
+    const dmb_scene_joint *j = sim->scene->joints + joint;
+    const uint32_t node[2] = {j->a.node, j->b.node};
+    const int turning = sim->joint_state[joint] != DMB_JOINT_OPEN && turns(sim, node, h, reached);
+    law_nodes of = {.node = {DMB_NONE, DMB_NONE}};
+    if (turning) of = nodes_of_joint(sim, joint);
+    for (uint32_t i = 0; i < 6; i++) {
+        const uint32_t law[2] = {j->law + i, dmb_bounce_of_law(sim->scene, j->law + i)};
+        of.is_couple = i >= 3;
+        for (int k = 0; k < 2; k++)
+            mark(sim, law[k], turning && may_hold(sim->scene, law[k]) && is_stiff(sim, law[k], &of, h), reached);
+    }
+}
+
+static void mark_spring(dmb_sim *sim, uint32_t spring, double h, int reached)
+{
+    const uint32_t u = dmb_bounce_of_spring(sim->scene, spring);
+    const law_nodes of = nodes_of_spring(sim->scene, spring);
+    const int stiff = may_hold(sim->scene, u) && is_stiff(sim, u, &of, h);
+    const int turning =
+        stiff && (turns(sim, of.node, h, reached) || turn_of_line(sim, spring, h, reached) > DMB_HOLD_TURN);
+    mark(sim, u, turning, reached);
 }
 
 void dmb_bounces_mark_turning(dmb_sim *sim, double h, int reached)
 {
-    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
-        if (!reached || !sim->bounce_turns[u]) sim->bounce_turns[u] = (uint8_t)is_turning(sim, u, h, reached);
+    const dmb_scene *scene = sim->scene;
+    if (scene->unilateral_count == 0) return;
+    for (uint32_t j = 0; j < scene->joint_count; j++)
+        if (scene->joints[j].law != DMB_NONE) mark_joint(sim, j, h, reached);
+    for (uint32_t i = 0; i < scene->spring_count; i++) mark_spring(sim, i, h, reached);
 }
