@@ -915,6 +915,47 @@ class ForceTest(unittest.TestCase):
         self.assertTrue(0.0 < max(what[2][0] for what in told) <= 0.3 / stiffness)
         self.assertNotIn("callback", words_of(mbd.FrictionLaw))
 
+    def test_errors_in_laws_with_a_state(self):
+        """An exception of accept comes out of the call, whose steps are done; a result of the wrong length says so."""
+        shape: list = []
+
+        def law(_time, _poses, _velocities, state, _step):
+            return ([0.0] * 6, state) if not shape else shape[0]
+
+        def accept(time, _number, _state):
+            if 0.0015 < time < 0.0035:
+                raise KeyError(f"at {1e3 * time:.0f} ms")
+
+        model = mbd.Model()
+        model.add_force(places=[model.add_body(mass=2.0)], function=law, state_count=1, accept=accept)
+        model.compile()
+        with model.sim() as sim:
+            sim.steps(1e-3, 1)
+            with self.assertRaisesRegex(KeyError, "at 2 ms"):
+                sim.steps(1e-3, 4)
+            self.assertAlmostEqual(sim.time, 5e-3, 12)
+            sim.steps(1e-3, 1)
+        with model.sim() as sim:  # the function of accepted steps raises too: its exception comes out, and only once
+            sim.on_step = lambda time: 1.0 / (time < 0.0015) > 2.0
+            with self.assertRaises(ZeroDivisionError):
+                sim.steps(1e-3, 4)
+            sim.on_step = None
+            sim.steps(2e-3, 1)
+            for wrong in ([0.0] * 6, ([0.0] * 6, [0.0], [0.0])):
+                shape[:] = [wrong]
+                with self.assertRaises(mbd.Error) as caught:
+                    sim.step(1e-3)
+                self.assertRegex(str(caught.exception.__cause__), "must be a tuple of 2: force, state")
+        for states, wrong in ((0, ([0.0] * 2, [0.0] * 4, [0.0] * 2, [])), (1, ([0.0] * 2, [0.0] * 4, [0.0] * 2))):
+            model = mbd.Model()
+            model.add_wall(friction=lambda *_, wrong=wrong: wrong, friction_state_count=states)
+            model.add_body(mass=10.0, contact_diameter=0.074, position=[1.0, 0.0, -0.01001], velocity=[0.2, 0, 0, 0, 0, 0],
+                           free_mask=mbd.FREE_X | mbd.FREE_Z)
+            model.compile()
+            with self.assertRaises(mbd.Error) as caught, model.sim() as sim:
+                sim.step(1e-3)
+            self.assertRegex(str(caught.exception.__cause__), "force, by_slip, by_normal" + (", state" if states else ""))
+
     def test_law_with_a_state(self):
         told, k, limit = [], 2000.0, 30.0
 

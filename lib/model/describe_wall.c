@@ -61,6 +61,8 @@ static void check_laws(dmb_check *check, const dmb_wall_def *def)
     if (law != DMB_FRICTION_CALLBACK && def->friction_state_count != 0)
         dmb_check_fail(check, DMB_ERR_VALUE, "friction_state_count", def->friction_state_count,
                        "0 without friction_callback");
+    if (check->status >= 0 && law != DMB_FRICTION_CALLBACK && def->friction_accept != NULL)
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "friction_law", law, "DMB_FRICTION_CALLBACK with a friction_accept");
     if (law == DMB_FRICTION_AMBROSIO)
         dmb_check_above_field(check, "full_speed", def->full_speed, "smoothing_speed", def->smoothing_speed);
 }

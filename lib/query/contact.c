@@ -1,6 +1,7 @@
 /* The wall at the accepted state: contact, the hole at a depth, places that can be stuck. Contact points are numbered
  * with those of six-DOF nodes first (strings, then bodies), then those of axial-torsional nodes. */
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/sized_struct.h"
@@ -40,6 +41,12 @@ void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *for
                          force);
 }
 
+/* True if the caller's law of friction has failed in this query. */
+static bool has_failed(const dmb_site_force *force)
+{
+    return isnan(force->friction[0]);
+}
+
 static void describe(const dmb_scene *scene, uint32_t site, dmb_contact *contact)
 {
     const uint32_t full = scene->site_count;
@@ -57,6 +64,7 @@ int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t site, dmb_contact *conta
     if (status < 0) return status;
     if (site >= site_count(sim->scene)) return DMB_ERR_VALUE;
     dmb_contact_force_of(sim, site, &force);
+    if (has_failed(&force)) return DMB_ERR_CALLBACK;
     describe(sim->scene, site, &answer);
     answer.closed = force.closed;
     answer.sticks = force.sticks;
@@ -80,6 +88,7 @@ int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
     for (uint32_t i = 0; i < site_count(sim->scene); i++) {
         dmb_site_force force;
         dmb_contact_force_of(sim, i, &force);
+        if (has_failed(&force)) return DMB_ERR_CALLBACK;
         if (!force.closed) continue;
         answer.closed++;
         answer.normal_force += force.normal_force;

@@ -37,6 +37,7 @@ typedef struct hunt {
     double crossing;   /* [s] of the first of them */
     double from;       /* [s] start of the step */
     int32_t equal;     /* 1: equal steps, which do not end at crossings */
+    int32_t looks;     /* 1: no such step is accepted yet, so that a failing call has changed nothing */
 } hunt;
 
 static int32_t ask(dmb_sim *sim, gaps *found)
@@ -409,13 +410,11 @@ static int32_t begin(hunt *h)
 {
     dmb_sim *sim = h->sim;
     if (sim->scene->event_count == 0) {
-        dmb_message_set(&sim->message, "advance to event: the model has no events; add one, or use the call without "
-                                       "events");
+        dmb_message_set(&sim->message, "%s to event: the model has no events; add one, or use the call without events",
+                        h->equal ? "steps" : "advance");
         return DMB_ERR_VALUE;
     }
-    const int32_t status = ask(sim, &h->before);
-    if (status >= 0) look_around(sim, &h->before);
-    return status;
+    return ask(sim, &h->before);
 }
 
 /* The step is accepted even where an output cannot be asked after it: the caller's function sees it, and the message
@@ -447,6 +446,7 @@ static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_s
     if (status >= 0) status = dmb_stepping_check(sim, "time", time, sim->clock->time);
     if (status >= 0) status = begin(&h);
     if (status < 0) return status;
+    look_around(sim, &h.before);
     const double start = sim->clock->time;
     h.wanted = dmb_advance_first(sim);
     while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.reported == 0) {
@@ -479,6 +479,8 @@ static int32_t look_at_step(void *context)
     hunt *h = context;
     gaps now;
     const int32_t status = ask(h->sim, &now);
+    if (h->looks) look_around(h->sim, &h->before);
+    h->looks = 0;
     if (status < 0) return status;
     h->reported = reported_events(h, &now, crossings(h, &now));
     h->located = h->reported != 0 ? h->sim->clock->time - h->from : 0.0;
@@ -491,7 +493,7 @@ static int32_t look_at_step(void *context)
 static int32_t steps_to_event(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_event_report *event,
                               dmb_step_report *report)
 {
-    hunt h = {.sim = sim, .crossing = (double)NAN, .from = sim->clock->time, .equal = 1};
+    hunt h = {.sim = sim, .crossing = (double)NAN, .from = sim->clock->time, .equal = 1, .looks = 1};
     const dmb_step_watch watch = {look_at_step, &h};
     int32_t status = check_report(event);
     if (status >= 0) status = begin(&h);

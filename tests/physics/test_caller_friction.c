@@ -73,6 +73,9 @@ static int32_t bristles(void *context, const dmb_friction_at *at, double force[2
 enum { AT_NODES, ALONG_ELEMENTS, AXIAL_TORSIONAL, IN_SECTIONS, SCENES };
 
 static dmb_place middle;
+static double steady_pull;      /* [m/s] of the rig end; 0: to and fro */
+static dmb_friction_fn own_law; /* NULL: bristles */
+static int32_t features = DMB_FEATURE_ALL;
 
 /* Pipes on the wall that are pulled to and fro and turned by their rig end. law NULL: the library's. */
 static rig string_in_hole(int scene, law *o, uint32_t pipes)
@@ -84,7 +87,7 @@ static rig string_in_hole(int scene, law *o, uint32_t pipes)
     wall.mu_static = wall.mu_dynamic = 0.3;
     wall.bristle_stiffness = STIFFNESS;
     wall.bristle_damping = DAMPING;
-    wall.friction_callback = o != NULL ? bristles : NULL;
+    wall.friction_callback = o == NULL ? NULL : own_law != NULL ? own_law : bristles;
     wall.friction_context = o;
     wall.friction_state_count = o != NULL ? 2 : 0;
     wall.friction_accept = o != NULL ? hear : NULL;
@@ -107,8 +110,9 @@ static rig string_in_hole(int scene, law *o, uint32_t pipes)
     (void)add_pipes(&s, &pipe, pipes);
     dmb_segment pull = dmb_segment_default(), turn = pull;
     pull.kind = turn.kind = DMB_SEGMENT_HARMONIC;
-    pull.h1 = 0.05;
-    turn.h1 = 1.0;
+    pull.h0 = steady_pull;
+    pull.h1 = steady_pull != 0.0 ? 0.0 : 0.05;
+    turn.h1 = steady_pull != 0.0 ? 0.0 : 1.0;
     pull.omega = 15.0;
     turn.omega = 11.0;
     dmb_drive_def drive = dmb_drive_def_default();
@@ -118,7 +122,9 @@ static rig string_in_hole(int scene, law *o, uint32_t pipes)
     drive.component = DMB_RX;
     drive.time_function = add_time_function(&s, &turn, 1);
     (void)add_drive(&s, &drive);
-    (void)rig_start(&s, NULL);
+    dmb_compile_options compile = dmb_compile_options_default();
+    compile.features = features;
+    (void)rig_start_with(&s, &compile, NULL);
     middle = dmb_station(pipe.string, pipes - 1, 0.5);
     return s;
 }
@@ -194,6 +200,89 @@ static void statics_slide(void **state)
         rig_close(&built);
         rig_close(&again);
     }
+}
+
+/* A law whose state is its force [N] at once, with the rate of bristles: in sliding mu N. */
+static int32_t force_as_state(void *context, const dmb_friction_at *at, double force[2], double by_slip[4],
+                              double by_normal[2], const dmb_law_memory *memory)
+{
+    const double N = at->normal_force, mu = 0.3, *v = at->slip, h = memory->step;
+    const double speed = sqrt(v[0] * v[0] + v[1] * v[1]);
+    (void)context;
+    for (int i = 0; i < 2; i++) {
+        double *s = memory->trial + i;
+        if (isinf(h)) {
+            *s = speed > 0.0 ? mu * N * v[i] / speed : 0.0;
+            by_normal[i] = speed > 0.0 ? -mu * v[i] / speed : 0.0;
+        } else if (h > 0.0 && N > 0.0) { /* backward Euler of N sigma0 v - sigma0 |v|/mu s; by_slip is left at 0 */
+            *s = (memory->accepted[i] + h * N * STIFFNESS * v[i]) / (1.0 + h * STIFFNESS * speed / mu);
+        }
+        force[i] = -*s;
+        (void)by_slip;
+    }
+    return 0;
+}
+
+/* After a steady state the state of the law is that of sliding at the normal force of each point. */
+static void sliding_has_its_normal_force(void **state)
+{
+    (void)state;
+    own_law = force_as_state;
+    steady_pull = 0.05;
+    for (int scene = 0; scene < SCENES; scene++) {
+        law o = {0};
+        uint32_t closed = 0;
+        rig s = string_in_hole(scene, &o, 4);
+        const dmb_static_options options = dmb_static_options_default();
+        const dmb_static_report report = find_equilibrium(&s, &options);
+        assert_int_equal(report.steady, DMB_STEADY_SLIDING);
+        dmb_contact contact = dmb_contact_default();
+        for (uint32_t i = 0; dmb_query_contact(s.sim, i, &contact) >= 0; i++) {
+            if (!(contact.normal_force > 1.0)) continue;
+            check_relative("friction in steady sliding [N]", contact.friction[0], -0.3 * contact.normal_force, 1e-6);
+            closed++;
+        }
+        assert_true(closed > 2);
+        rig_close(&s);
+    }
+    own_law = NULL;
+    steady_pull = 0.0;
+}
+
+/* A law that fails in a query fails the query. */
+static void queries_fail_with_the_law(void **state)
+{
+    (void)state;
+    for (int scene = 0; scene < SCENES; scene++) {
+        law o = {0};
+        dmb_contact contact = dmb_contact_default();
+        dmb_contact_total total = dmb_contact_total_default();
+        rig s = string_in_hole(scene, &o, 3);
+        take_divided_steps(&s, 1e-3, 20);
+        const uint64_t then = rig_hash(&s);
+        for (uint32_t i = 0; i < 1000 && !contact.closed; i++) must(&s, dmb_query_contact(s.sim, i, &contact));
+        assert_true(contact.closed && isfinite(contact.friction[0]));
+        o.fail_at = o.asked + 1;
+        assert_int_equal(dmb_query_contact(s.sim, contact.number, &contact), DMB_ERR_CALLBACK);
+        o.fail_at = o.asked + 1;
+        assert_int_equal(dmb_query_contact_total(s.sim, &total), DMB_ERR_CALLBACK);
+        assert_true(total.closed == 0 && rig_hash(&s) == then);
+        must(&s, dmb_query_contact_total(s.sim, &total));
+        rig_close(&s);
+    }
+}
+
+/* Without friction in the mesh neither function of the law is called. */
+static void a_mesh_without_friction_calls_nothing(void **state)
+{
+    (void)state;
+    law o = {0};
+    features = DMB_FEATURE_ALL & ~DMB_FEATURE_FRICTION;
+    rig s = string_in_hole(AT_NODES, &o, 3);
+    take_divided_steps(&s, 1e-3, 5);
+    assert_true(o.asked == 0 && o.told == 0);
+    rig_close(&s);
+    features = DMB_FEATURE_ALL;
 }
 
 static void the_state_is_saved(void **state)
@@ -366,6 +455,10 @@ static void what_is_refused(void **state)
     wall.friction_state_count = 1;
     wall.friction_law = DMB_FRICTION_STRIBECK;
     assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_ERR_NULL);
+    wall.friction_callback = NULL;
+    wall.friction_state_count = 0;
+    wall.friction_accept = hear;
+    assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_ERR_UNSUPPORTED);
     rig_close(&s);
 }
 
@@ -376,6 +469,9 @@ int main(void)
         cmocka_unit_test(it_is_transferred),
         cmocka_unit_test(statics_slide),
         cmocka_unit_test(the_state_is_saved),
+        cmocka_unit_test(sliding_has_its_normal_force),
+        cmocka_unit_test(queries_fail_with_the_law),
+        cmocka_unit_test(a_mesh_without_friction_calls_nothing),
         cmocka_unit_test(a_loop_dissipates),
         cmocka_unit_test(lugre_is_of_second_order),
         cmocka_unit_test(what_is_refused),

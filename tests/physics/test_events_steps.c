@@ -197,6 +197,45 @@ static void what_is_missed_and_refused(void **state)
     s = driven_body(0.0, 0.0);
     (void)rig_start(&s, NULL);
     assert_int_equal(dmb_sim_steps_to_event(s.sim, 0.1, 1, NULL, NULL, NULL), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "steps to event"));
+    rig_close(&s);
+}
+
+static int32_t fails(void *context, double time, uint32_t place_count, const double (*poses)[12],
+                     const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                     const dmb_law_memory *memory)
+{
+    (void)time, (void)place_count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
+    (void)memory;
+    return *(const int *)context;
+}
+
+/* Neither wrong arguments nor a first step that fails change the sim, of which no call has looked at the events yet. */
+static void failing_calls_change_nothing(void **state)
+{
+    int fail = 0;
+    dmb_event_report report = dmb_event_report_default();
+    dmb_step_report short_report = dmb_step_report_default();
+    (void)state;
+    rig s = driven_body(0.3, 0.0);
+    dmb_force_def def = dmb_force_def_default();
+    def.place_count = 1;
+    def.place[0] = dmb_station(mass, 0, 0.0);
+    def.callback = fails;
+    def.callback_context = &fail;
+    must_model(&s, dmb_model_add_force(s.model, &def, NULL));
+    add_event(&s, DMB_OUTPUT_VELOCITY_X, mass, DMB_EVENT_EITHER, 0.1, 0.0);
+    add_event(&s, DMB_OUTPUT_VELOCITY_X, mass, DMB_EVENT_FALLING, 0.1, 0.1);
+    (void)rig_start(&s, NULL);
+    const uint64_t before = rig_hash(&s);
+    short_report.struct_size = 3;
+    assert_int_equal(dmb_sim_steps_to_event(s.sim, -1.0, 1, NULL, &report, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_steps_to_event(s.sim, 1e19, 1, NULL, &report, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_steps_to_event(s.sim, (double)NAN, 1, NULL, &report, NULL), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_sim_steps_to_event(s.sim, 1e-3, 1, NULL, &report, &short_report), DMB_ERR_STRUCT_SIZE);
+    fail = 1;
+    assert_int_equal(dmb_sim_steps_to_event(s.sim, 1e-3, 1, NULL, &report, NULL), DMB_ERR_CALLBACK);
+    assert_true(rig_hash(&s) == before && report.count == 0 && isnan(report.crossing));
     rig_close(&s);
 }
 
@@ -206,6 +245,7 @@ int main(void)
         cmocka_unit_test(third_order_from_both_sides),   cmocka_unit_test(a_parabola_is_met),
         cmocka_unit_test(holds_end_within_a_step),       cmocka_unit_test(agrees_with_the_other_calls),
         cmocka_unit_test(the_motion_is_of_second_order), cmocka_unit_test(what_is_missed_and_refused),
+        cmocka_unit_test(failing_calls_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -135,13 +135,20 @@ class Keep:
     def force(self, function: Callable[..., Any], provides: int, states: int = 0) -> Any:
         """The C function around a Python function of time, poses and velocities, of a law with a state also of the state
         at the last accepted time and the time since."""
+        words = "".join(f", {word}" for word, given in (("tangent", provides & PROVIDES_TANGENT),
+                                                        ("potential", provides & PROVIDES_POTENTIAL),
+                                                        ("state", states)) if given)
+        wanted = 1 + words.count(",")
+
         def call(_context: Any, time: float, count: int, poses: Any, velocities: Any, forces: Any, tangent: Any,
                  potential: Any, memory: Any) -> int:
             try:
                 motion = [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)]
                 law = memory.contents
                 answer = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
-                parts = list(answer) if provides or states else [answer]
+                parts = list(answer) if wanted > 1 else [answer]
+                if len(parts) != wanted:
+                    refuse_type("force", "result of the function", answer, f"be a tuple of {wanted}: force{words}")
                 if states:
                     for i, number in enumerate(reals(flat(parts.pop()), "force", "state", states)):
                         law.trial[i] = number
@@ -168,6 +175,9 @@ class Keep:
             try:
                 law, told = memory.contents, at.contents
                 answer = list(function(told, law.accepted[:states], law.step) if states else function(told))
+                if len(answer) != 3 + (states > 0):
+                    refuse_type("friction", "result of the function", answer,
+                                f"be a tuple of force, by_slip, by_normal{', state' if states else ''}")
                 for to, count, word in ((force, 2, "force"), (by_slip, 4, "by_slip"), (by_normal, 2, "by_normal")):
                     for i, number in enumerate(reals(flat(answer.pop(0)), "friction", word, count)):
                         to[i] = number
@@ -187,8 +197,9 @@ class Keep:
         def call(_context: Any, time: float, number: int, state: Any) -> None:
             try:
                 function(time, number, state[:states] if states else [])
-            except BaseException as error:  # raised when the call ends
-                self.raised.error = error
+            except BaseException as error:  # the first one is raised when the call ends
+                if getattr(self.raised, "accept", None) is None:
+                    self.raised.accept = error
 
         wrapped = ACCEPT_FN(call)
         self.references.append(wrapped)
@@ -206,13 +217,19 @@ class Keep:
         self.references.append(wrapped)
         return wrapped
 
+    def forget(self) -> tuple[BaseException | None, BaseException | None]:
+        """The exceptions of callbacks and of accept functions in the last call, which are then held no longer."""
+        held = getattr(self.raised, "error", None), getattr(self.raised, "accept", None)
+        self.raised.error = self.raised.accept = None
+        return held
+
     def check(self, status: int, message: bytes) -> int:
         """Raises Error for a failed call, from the exception of a callback if there is one."""
-        raised = getattr(self.raised, "error", None)
-        if raised is not None:
-            self.raised.error = None
-            if not isinstance(raised, Exception):
-                raise raised  # KeyboardInterrupt and the like
+        raised, after_step = self.forget()
+        if raised is not None and not isinstance(raised, Exception):
+            raise raised  # KeyboardInterrupt and the like
         if status < 0:
-            raise Error(status, message.decode()) from raised
+            raise Error(status, message.decode()) from raised or after_step
+        if after_step is not None:
+            raise after_step
         return status

@@ -109,9 +109,9 @@ class Sim(Handle, analysis.Analyses):
     @property
     @mirrors("dmb_sim_set_on_step")
     def on_step(self) -> Callable[[float], Any] | None:
-        """function(time): called after each accepted step of step, steps, advance, advance_to_event and run; it may
-        query and record the sim. It ends the call by returning True (NOTE_STOPPED before its end) or by raising, which
-        comes out of the call. None: no callback (default)."""
+        """function(time): called after each accepted step of step, steps, steps_to_event, advance, advance_to_event
+        and run; it may query and record the sim. It ends the call by returning True (NOTE_STOPPED before its end) or by
+        raising, which comes out of the call. None: no callback (default)."""
         return self._teller.on_step
 
     @on_step.setter
@@ -119,7 +119,11 @@ class Sim(Handle, analysis.Analyses):
         check(self._teller.set_on_step(self._handle, function))
 
     def _check(self, status: int) -> int:
-        self._teller.rethrow()  # what the progress function raised
+        try:
+            self._teller.rethrow()  # what the progress function raised
+        except BaseException:
+            self._scene.forget()
+            raise
         if is_closed(self._handle, status):
             raise closed("sim")
         return self._scene.check(status, _lib.dmb_sim_message(self._handle) if status < 0 else b"")

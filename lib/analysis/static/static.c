@@ -256,8 +256,8 @@ static int32_t set_motion(dmb_static_search *search)
     }
     dmb_contacts_forget(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    if (search->steady != NULL) dmb_contacts_slide(sim);
-    return status;
+    if (status < 0 || search->steady == NULL) return status;
+    return dmb_contacts_slide(sim);
 }
 
 /* Sets the rock ahead of the bit: at time 0 as the description defines it, because the forces of the restart require

@@ -141,7 +141,7 @@ void dmb_contacts_assume_slip(const dmb_evaluation *evaluation);
 void dmb_contacts_copy_slip(dmb_sim *sim);
 void dmb_contacts_copy_touch(dmb_sim *sim);
 void dmb_contacts_forget(dmb_sim *sim);
-void dmb_contacts_slide(dmb_sim *sim);
+int32_t dmb_contacts_slide(dmb_sim *sim);
 
 void dmb_assemble_contacts(dmb_evaluation *evaluation);
 /* Contact forces at all points on nodes, in chunks if there are many. */

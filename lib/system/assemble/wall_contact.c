@@ -459,39 +459,51 @@ void dmb_contacts_forget(dmb_sim *sim)
 /* [-] Deflection over the sticking limit, so that rounding does not make a sliding bristle stick. */
 #define DMB_SLIDING_BEYOND (1.0 + 1e-9)
 
-/* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding. */
-static void deflect(const dmb_friction_law *law, const double v[2], double *z, int32_t *sticks)
+/* [N] Normal force at which the caller's law slides: its state may depend on it, that of bristles does not. */
+static double sliding_normal_force(const dmb_sim *sim, uint32_t site)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_site_force force;
+    if (scene->friction_law.kind != DMB_FRICTION_CALLBACK) return 1.0;
+    if (site < scene->site_count)
+        dmb_site_force_of(scene, &sim->now, site, &force);
+    else
+        dmb_axial_torsional_site_force(scene, &sim->now, site - scene->site_count, &force);
+    return force.normal_force;
+}
+
+/* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding; or the state of the caller's law. */
+static int32_t deflect(const dmb_sim *sim, uint32_t site, const double v[2], double *z, int32_t *sticks)
 {
     static const double none[DMB_FRICTION_STATES] = {0.0};
-    const dmb_friction_at at = {1.0, {v[0], v[1]}, {v[0], v[1]}, law->mu_static, law->mu_dynamic};
+    dmb_friction_law local;
+    const dmb_friction_law *law = dmb_contact_friction_law(sim->scene, &sim->now, site, &local);
+    const double N = sliding_normal_force(sim, site);
+    const dmb_friction_at at = {N, {v[0], v[1]}, {v[0], v[1]}, law->mu_static, law->mu_dynamic};
     const dmb_friction_law sliding = dmb_sliding_law(law);
     const dmb_law_memory memory = {none, z, (double)INFINITY};
     dmb_friction_result of;
     double F[2], dv[4], dN[2];
     *sticks = 0;
-    if (law->kind == DMB_FRICTION_CALLBACK) {
-        (void)dmb_friction_call(law, &at, &memory, &of); /* it has not failed in this state */
-        return;
-    }
-    dmb_friction_smooth(&sliding, 1.0, v, F, dv, dN);
+    if (law->kind == DMB_FRICTION_CALLBACK) return dmb_friction_call(law, &at, &memory, &of);
+    dmb_friction_smooth(&sliding, N, v, F, dv, dN);
     for (int i = 0; i < 2; i++) z[i] = -DMB_SLIDING_BEYOND * F[i] / law->bristle_stiffness;
+    return DMB_OK;
 }
 
-void dmb_contacts_slide(dmb_sim *sim)
+int32_t dmb_contacts_slide(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    if (!dmb_scene_has_bristles(scene)) return;
-    for (uint32_t s = 0; s < scene->site_count; s++) {
-        dmb_friction_law local;
-        const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, s, &local);
+    const size_t states = scene->friction_law.states;
+    int32_t status = DMB_OK;
+    if (!dmb_scene_has_bristles(scene)) return DMB_OK;
+    for (uint32_t s = 0; s < scene->site_count && status >= 0; s++)
         if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
-            deflect(law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + law->states * (size_t)s,
-                    sim->now.site_sticks + s);
-    }
-    for (uint32_t p = 0; p < scene->axial_torsional_site_count; p++) {
-        dmb_friction_law local;
-        const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, scene->site_count + p, &local);
-        deflect(law, sim->now.axial_torsional_slip + 2 * (size_t)p,
-                sim->now.axial_torsional_bristle + law->states * (size_t)p, sim->now.axial_torsional_sticks + p);
-    }
+            status = deflect(sim, s, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + states * s,
+                             sim->now.site_sticks + s);
+    for (uint32_t p = 0; p < scene->axial_torsional_site_count && status >= 0; p++)
+        status = deflect(sim, scene->site_count + p, sim->now.axial_torsional_slip + 2 * (size_t)p,
+                         sim->now.axial_torsional_bristle + states * p, sim->now.axial_torsional_sticks + p);
+    if (status < 0) sim->reduced_mode->force = scene->force_count + 1;
+    return status;
 }

@@ -36,7 +36,7 @@ void dmb_friction_failed(dmb_evaluation *evaluation)
 void dmb_friction_accept(const dmb_sim *sim)
 {
     const dmb_friction_law *law = &sim->scene->friction_law;
-    if (law->accept == NULL) return;
+    if (law->kind != DMB_FRICTION_CALLBACK || law->accept == NULL) return; /* friction may be left out of the mesh */
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
         law->accept(law->context, sim->clock->time, s, sim->now.site_bristle + law->states * (size_t)s);
     for (uint32_t p = 0; p < sim->scene->axial_torsional_site_count; p++)
