@@ -409,7 +409,7 @@ def struct_lines(reader, c_name, fields, text):
     yield "    }"
     if c_name in options(reader):
         yield "    bounds = {"
-        yield from (f'        "{field}": ("{bound}", {low:g}, {high:g}),' for field, (bound, low, high) in options(reader)[c_name].items())
+        yield from (f'        "{field}": ("{bound}", {low:.10g}, {high:.10g}),' for field, (bound, low, high) in options(reader)[c_name].items())
         yield "    }"
     yield ""
     yield ""

@@ -132,6 +132,8 @@ class Fields(unittest.TestCase):
                 with self.assertRaises(drillmbd.Error, msg=f"{struct.__name__}.{field}") as caught:
                     call(**{field: value})
                 self.assertEqual((caught.exception.field.split("[")[0], caught.exception.low), (field, low), caught.exception.message)
+                if kind == "within":
+                    self.assertEqual(caught.exception.high, high, caught.exception.message)
                 checked += 1
         self.assertGreater(checked, 80)
 

@@ -1193,8 +1193,8 @@ class StaticOptions(Sized):
     bounds = {
         "max_iterations": ("within", 1, 10000),
         "tolerance": ("within", 1e-15, 0.1),
-        "slip_axial": ("within", -1e+06, 1e+06),
-        "slip_rotation": ("within", -1e+06, 1e+06),
+        "slip_axial": ("within", -1000000, 1000000),
+        "slip_rotation": ("within", -1000000, 1000000),
         "load_steps": ("within", 0, 10000),
         "lay_on_wall": ("within", 0, 1),
         "steady": ("within", 0, 3),
@@ -1533,14 +1533,14 @@ class ModesOptions(Sized):
     bounds = {
         "kind": ("within", 0, 1),
         "select": ("within", 0, 2),
-        "count": ("within", 1, 4.29497e+09),
+        "count": ("within", 1, 4294967294),
         "band": ("within", 0, 1e+12),
         "contact": ("within", 0, 2),
         "friction": ("within", 0, 1),
-        "contact_gap": ("within", 0, 1e+06),
+        "contact_gap": ("within", 0, 1000000),
         "equilibrium_tolerance": ("above", 0, inf),
         "axes": ("within", 0, 1),
-        "spin": ("within", -1e+06, 1e+06),
+        "spin": ("within", -1000000, 1000000),
     }
 
 
@@ -1703,18 +1703,18 @@ class ResponseOptions(Sized):
         "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_modes_options; 0 (default): as they do"),
     }
     bounds = {
-        "points": ("within", 1, 1e+06),
-        "frequency_low": ("within", 0, 1e+09),
-        "frequency_high": ("within", 0, 1e+09),
+        "points": ("within", 1, 1000000),
+        "frequency_low": ("within", 0, 1000000000),
+        "frequency_high": ("within", 0, 1000000000),
         "logarithmic": ("within", 0, 1),
         "refinement": ("within", 0, 40),
         "structural_damping": ("within", 0, 1000),
         "equilibrium_tolerance": ("within", 1e-06, 1),
         "contact": ("within", 0, 2),
         "friction": ("within", 0, 1),
-        "contact_gap": ("within", 0, 1e+06),
+        "contact_gap": ("within", 0, 1000000),
         "axes": ("within", 0, 1),
-        "spin": ("within", -1e+06, 1e+06),
+        "spin": ("within", -1000000, 1000000),
     }
 
 
@@ -1749,9 +1749,9 @@ class SteppedSineOptions(Sized):
         "floor": ("unit of the output", "changes of a harmonic below it count as none, > 0; default 1e-12"),
     }
     bounds = {
-        "steps_per_period": ("within", 16, 1e+06),
+        "steps_per_period": ("within", 16, 1000000),
         "periods": ("within", 1, 10000),
-        "windows": ("within", 3, 1e+06),
+        "windows": ("within", 3, 1000000),
         "harmonics": ("within", 1, 16),
         "tolerance": ("within", 1e-12, 1),
         "floor": ("within", 1e-300, 1e+30),
@@ -1908,9 +1908,9 @@ class StateSpaceOptions(Sized):
         "static_correction": ("within", 0, 1),
         "contact": ("within", 0, 2),
         "friction": ("within", 0, 1),
-        "contact_gap": ("within", 0, 1e+06),
+        "contact_gap": ("within", 0, 1000000),
         "equilibrium_tolerance": ("within", 1e-06, 1),
-        "shift": ("within", 0, 1e+09),
+        "shift": ("within", 0, 1000000000),
     }
 
 
@@ -2949,8 +2949,8 @@ class BucklingOptions(Sized):
         "factor_max": ("within", 1e-300, 1e+300),
         "tolerance": ("within", 1e-15, 0.1),
         "step": ("within", 0, 1e+30),
-        "slip_axial": ("within", -1e+06, 1e+06),
-        "slip_rotation": ("within", -1e+06, 1e+06),
+        "slip_axial": ("within", -1000000, 1000000),
+        "slip_rotation": ("within", -1000000, 1000000),
     }
 
 
@@ -3010,17 +3010,17 @@ class SpeedsOptions(Sized):
     }
     bounds = {
         "points": ("within", 2, 100000),
-        "speed_low": ("within", 1e-06, 1e+06),
-        "speed_high": ("within", 1e-06, 1e+06),
-        "threshold": ("within", 1e-09, 1e+09),
+        "speed_low": ("within", 1e-06, 1000000),
+        "speed_high": ("within", 1e-06, 1000000),
+        "threshold": ("within", 1e-09, 1000000000),
         "margin": ("within", 0, 0.5),
         "refinement": ("within", 0, 40),
         "contact": ("within", 0, 2),
         "friction": ("within", 0, 1),
-        "contact_gap": ("within", 0, 1e+06),
+        "contact_gap": ("within", 0, 1000000),
         "structural_damping": ("within", 0, 1000),
         "equilibrium_tolerance": ("within", 1e-06, 1),
-        "spin": ("within", -1e+06, 1e+06),
+        "spin": ("within", -1000000, 1000000),
     }
 
 
@@ -3084,7 +3084,7 @@ class TorqueDragOptions(Sized):
     bounds = {
         "post_buckling": ("within", 0, 1),
         "friction": ("not_given_or", 0, 10),
-        "depth_count": ("within", 1, 1.04858e+06),
+        "depth_count": ("within", 1, 1048576),
         "friction_by_depth": ("within", 0, 1),
     }
 
@@ -3773,7 +3773,7 @@ class PathOptions(Sized):
         "callback_context": ("", ""),
     }
     bounds = {
-        "max_points": ("within", 1, 1e+06),
+        "max_points": ("within", 1, 1000000),
         "max_iterations": ("within", 2, 1000),
         "scale": ("within", 0, 2),
         "component": ("within", 0, 2),
@@ -3782,10 +3782,10 @@ class PathOptions(Sized):
         "displacement_end": ("within", -1e+30, 1e+30),
         "first_step": ("within", 0, 1e+30),
         "step_max": ("above", 0, inf),
-        "branch_size": ("within", 0, 1e+06),
+        "branch_size": ("within", 0, 1000000),
         "tolerance": ("within", 1e-15, 0.1),
-        "slip_axial": ("within", -1e+06, 1e+06),
-        "slip_rotation": ("within", -1e+06, 1e+06),
+        "slip_axial": ("within", -1000000, 1000000),
+        "slip_rotation": ("within", -1000000, 1000000),
     }
 
 
