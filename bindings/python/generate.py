@@ -141,7 +141,8 @@ class Reader:
             parts = [name + (array or "")] + [other.strip() for other in rest]
             names = [re.match(r"\w+", part).group(0) for part in parts]
             units = units_of(names, unit)
-            found += [(bare, self.ctype(base.strip() + " " + part), units[bare], text) for bare, part in zip(names, parts)]
+            texts = texts_of(names, text)
+            found += [(bare, self.ctype(base.strip() + " " + part), units[bare], texts[bare]) for bare, part in zip(names, parts)]
         return found
 
     def structs(self):
@@ -212,6 +213,19 @@ def spread(body):
 def unit_and_text(text):
     match = re.match(r"\[([^\]]*)\]\s*;?\s*(.*)$", text)
     return match.groups() if match else ("", text)
+
+
+def texts_of(names, text):
+    """{member: text} of members with one comment: "a; b; default 1, 2" has a text and a default for each of two members, others are
+    shared."""
+    shared = dict.fromkeys(names, text)
+    *said, last = [part.strip() for part in text.split(";")]
+    defaults = last.removeprefix("default ").split(", ") if last.startswith("default ") else []
+    if not defaults:
+        said.append(last)
+    if len(names) == 1 or len(said) != len(names) or (defaults and len(defaults) != len(names)):
+        return shared
+    return {name: f"{one}; default {defaults[i]}" if defaults else one for i, (name, one) in enumerate(zip(names, said))}
 
 
 def split_by_prefix(members):

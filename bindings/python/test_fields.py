@@ -1,6 +1,7 @@
 """The list of fields in C (lib/fields/lists.h) against the public header: each member has a row with the unit of its comment, and the
 default that the comment states is that of the library."""
 import ctypes
+import enum
 import math
 import pathlib
 import re
@@ -12,6 +13,7 @@ sys.path.insert(0, str(HERE))
 import generate  # noqa: E402
 import drillmbd  # noqa: E402
 from drillmbd import _structs, enums  # noqa: E402
+from drillmbd.scene.fields import fields_of  # noqa: E402
 
 LISTS = HERE.parents[1] / "lib" / "fields"
 NUMBER = r"-?(?:\d[\d.]*(?:e[+-]?\d+)?|[A-Z][A-Z0-9_]+|NaN)(?![\w/])"
@@ -136,6 +138,25 @@ class Fields(unittest.TestCase):
                     self.assertEqual(caught.exception.high, high, caught.exception.message)
                 checked += 1
         self.assertGreater(checked, 80)
+
+    def test_words_of_keys(self):
+        """A key of a scene file has the words of the enumeration by which the list of fields bounds it."""
+        checked = 0
+        for name in ("lists.h", "options.h"):
+            for struct, rows in generate.rows((LISTS / name).read_text(encoding="utf-8")).items():
+                known = fields_of(getattr(_structs, generate.class_name(struct)))
+                for field, _, bound, arguments in rows:
+                    member = getattr(enums, arguments.split(",")[0].removeprefix("DMB_"), None) if bound == "WITHIN" else None
+                    if isinstance(member, enum.IntEnum) and known.get(field) is not None:
+                        self.assertIs(known[field].enum, type(member), f"{struct}.{field}")
+                        checked += 1
+        self.assertGreater(checked, 20)
+
+    def test_comments_of_several_members(self):
+        for names, text, wanted in ((["a", "b"], "one; two; default 1, 2", ["one; default 1", "two; default 2"]),
+                                    (["a", "b"], "of both; default 1", ["of both; default 1"] * 2),
+                                    (["a", "b"], "X_...; Y_...", ["X_...", "Y_..."]), (["a"], "one; two", ["one; two"])):
+            self.assertEqual(list(generate.texts_of(names, text).values()), wanted)
 
     def test_defaults_that_are_read(self):
         """The reader of comments itself."""

@@ -198,7 +198,7 @@ typedef struct dmb_wall_def {
     double origin[3]; /* [m] start of the axis, world frame; default 0 */
     double direction[3]; /* [-] of a straight hole, any length, world frame; default (1, 0, 0) */
     double diameter; /* [m] of the hole, > 0; default 0.094 */
-    int32_t normal_law, friction_law; /* DMB_NORMAL_..., DMB_FRICTION_...; default DMB_NORMAL_EXACT, DMB_FRICTION_STRIBECK */
+    int32_t normal_law, friction_law; /* DMB_NORMAL_...; DMB_FRICTION_...; default DMB_NORMAL_EXACT, DMB_FRICTION_STRIBECK */
     double stiffness; /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4
         with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them */
     double exponent; /* [-] n, 1 .. 3; default 1 */
