@@ -96,12 +96,13 @@ static void add_rotor(rig *s, double k)
 }
 
 /* A body held by a stretched spring of 0.5 m from `at` along `line`. */
-static void add_one(rig *s, const dmb_body_def *body, const double at[3], const double line[3], double k)
+static dmb_id add_one(rig *s, const dmb_body_def *body, const double at[3], const double line[3], double k)
 {
     dmb_spring_def def = dmb_spring_def_default();
+    const dmb_id made = add_body(s, body);
     dmb_id id = {0, 0};
     def.place_a = dmb_station(ground_id, 0, 0.0);
-    def.place_b = dmb_station(add_body(s, body), 0, 0.0);
+    def.place_b = dmb_station(made, 0, 0.0);
     for (int i = 0; i < 3; i++) {
         def.offset_b[i] = at[i];
         def.offset_a[i] = at[i] + 0.5 * line[i];
@@ -109,6 +110,7 @@ static void add_one(rig *s, const dmb_body_def *body, const double at[3], const 
     def.stiffness = k;
     def.free_length = 0.45;
     must_model(s, dmb_model_add_spring(s->model, &def, &id));
+    return made;
 }
 
 /* 1/m + (1 m)^2/J = 200.5/kg along the spring. */
@@ -120,7 +122,7 @@ static void add_far(rig *s, double k)
     body.inertia[0] = 0.004, body.inertia[1] = 0.006, body.inertia[2] = 0.005;
     body.centre[0] = -1.0;
     body.velocity[3] = spin, body.velocity[4] = 3.0;
-    add_one(s, &body, at, line, k / (mass * 200.5));
+    (void)add_one(s, &body, at, line, k / (mass * 200.5));
 }
 
 /* 1/m + (0.3 m)^2/J = 180.5/kg, J = 0.0005 kg m2 about (1, 1, 0), 1 kg m2 across. */
@@ -131,7 +133,7 @@ static void add_aslant(rig *s, double k)
     body.mass = mass;
     body.inertia[0] = body.inertia[1] = 0.50025, body.inertia[2] = 1.0, body.inertia[3] = -0.49975;
     body.velocity[3] = body.velocity[4] = sqrt(0.5) * spin;
-    add_one(s, &body, at, line, k / (mass * 180.5));
+    (void)add_one(s, &body, at, line, k / (mass * 180.5));
 }
 
 static void add_kind(rig *s, int kind, double k)
@@ -230,11 +232,36 @@ static void open_joints_hold_nothing(void **state)
     assert_true(soft == stiff);
 }
 
+/* A body that rotates steadily on a ball joint, held by a spring from there: the joint bears the spring's force. */
+static void steady_reactions_are_of_the_law(void **state)
+{
+    static const double radii[] = {0.0, 0.8, 1.0}, at[3] = {0.0, 0.5, 0.0}, line[3] = {0.0, -1.0, 0.0};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        dmb_body_def body = dmb_body_def_default();
+        body.mass = mass;
+        body.inertia[0] = body.inertia[1] = body.inertia[2] = 0.4;
+        body.velocity[3] = spin;
+        const dmb_place end = dmb_station(add_one(&s, &body, at, line, 1e6), 0, 0.0);
+        const dmb_joint_def ball = joint_between(DMB_JOINT_SPHERICAL, dmb_station(ground_id, 0, 0.0), end);
+        const dmb_id joint = add_joint(&s, &ball);
+        const dmb_sim_options options = sharp_options(radii[i], 1e-10);
+        assert_int_equal(mechanism_start(&s, &options), DMB_OK);
+        for (int k = 0; k < 20; k++) assert_int_equal(dmb_sim_step(s.sim, 1e-3, NULL), DMB_OK);
+        const dmb_joint_state at_end = joint_at(&s, joint);
+        check_close("reaction", hypot(at_end.reaction[1], at_end.reaction[2]), 0.05 * 1e6, 1e-4);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_gain_nothing),
         cmocka_unit_test(open_joints_hold_nothing),
+        cmocka_unit_test(steady_reactions_are_of_the_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,6 +16,9 @@
  * force */
 #define DMB_HOLD_TURN 0.01
 #define DMB_HOLD_RESOLVED 1.0
+/* [-] Change of the force in the step over the force, below which the trapezoidal rule keeps the energy and a spring
+ * that turns steadily has its law's reactions. */
+#define DMB_HOLD_CHANGE 1e-4
 
 /* Nodes that a law acts on, and the points [m] of its force there. */
 typedef struct law_nodes {
@@ -56,6 +59,15 @@ static int is_stiff(const dmb_sim *sim, uint32_t u, const law_nodes *of, double 
         if (of->node[k] != DMB_NONE)
             mobility += dmb_node_mobility(sim->scene, of->node[k], of->is_couple ? NULL : of->x[k]);
     return h * h * end.slope * mobility > DMB_HOLD_RESOLVED;
+}
+
+/* 1: the force changes in the step, at the speed of its start, or as reached. */
+static int changes(const dmb_sim *sim, uint32_t u, double h, int reached)
+{
+    dmb_unilateral_end a, b;
+    dmb_bounce_ends(sim, u, &a, &b);
+    if (reached) return fabs(b.force - a.force) > DMB_HOLD_CHANGE * fmax(fabs(a.force), fabs(b.force));
+    return h * a.slope * fabs(sim->now.bounce_speed[u]) > DMB_HOLD_CHANGE * fabs(a.force);
 }
 
 /* [rad] Rotation of a node in the step: at the speed of its start, or as reached. */
@@ -104,19 +116,24 @@ static void mark(dmb_sim *sim, uint32_t u, int turning, int reached)
     if (!reached || turning) sim->bounce_turns[u] = (uint8_t)turning;
 }
 
-/* Laws of a joint that is open have no force. */
+/* Laws of a joint that is open have no force. Where one of them has a mean force, the others have it too. */
 static void mark_joint(dmb_sim *sim, uint32_t joint, double h, int reached)
 {
     const dmb_scene_joint *j = sim->scene->joints + joint;
     const uint32_t node[2] = {j->a.node, j->b.node};
     const int turning = sim->joint_state[joint] != DMB_JOINT_OPEN && turns(sim, node, h, reached);
+    uint8_t holds[12] = {0}, changing = 0;
     law_nodes of = {.node = {DMB_NONE, DMB_NONE}};
     if (turning) of = nodes_of_joint(sim, joint);
-    for (uint32_t i = 0; i < 6; i++) {
-        const uint32_t law[2] = {j->law + i, dmb_bounce_of_law(sim->scene, j->law + i)};
-        of.is_couple = i >= 3;
-        for (int k = 0; k < 2; k++)
-            mark(sim, law[k], turning && may_hold(sim->scene, law[k]) && is_stiff(sim, law[k], &of, h), reached);
+    for (uint32_t i = 0; i < 12 && turning; i++) {
+        const uint32_t u = i < 6 ? j->law + i : dmb_bounce_of_law(sim->scene, j->law + i - 6);
+        of.is_couple = i % 6 >= 3;
+        holds[i] = may_hold(sim->scene, u) && is_stiff(sim, u, &of, h);
+        changing |= holds[i] && changes(sim, u, h, reached);
+    }
+    for (uint32_t i = 0; i < 12; i++) {
+        const uint32_t u = i < 6 ? j->law + i : dmb_bounce_of_law(sim->scene, j->law + i - 6);
+        mark(sim, u, holds[i] && changing, reached);
     }
 }
 
@@ -124,7 +141,7 @@ static void mark_spring(dmb_sim *sim, uint32_t spring, double h, int reached)
 {
     const uint32_t u = dmb_bounce_of_spring(sim->scene, spring);
     const law_nodes of = nodes_of_spring(sim->scene, spring);
-    const int stiff = may_hold(sim->scene, u) && is_stiff(sim, u, &of, h);
+    const int stiff = may_hold(sim->scene, u) && is_stiff(sim, u, &of, h) && changes(sim, u, h, reached);
     const int turning =
         stiff && (turns(sim, of.node, h, reached) || turn_of_line(sim, spring, h, reached) > DMB_HOLD_TURN);
     mark(sim, u, turning, reached);
