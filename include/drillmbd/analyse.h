@@ -30,7 +30,8 @@ typedef struct dmb_static_options {
     double slip_axial, slip_rotation; /* [m/s; rad/s] friction acts as if the string slid along the hole and turned at these
         speeds; both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its
         accelerations are 0 and section forces contain neither inertia nor damping */
-    uint32_t load_steps; /* [-] equal steps from no load to full load, <= 10000; default 0: by the library */
+    uint32_t load_steps; /* [-] equal steps from no load to full load, <= 10000, before the library chooses them itself; 0
+        (default): the whole load at once */
     int32_t lay_on_wall; /* 1 (default): start from the string lying on the low side of its hole; 0: from the present pose */
     int32_t steady, reserved; /* DMB_STEADY_..., default DMB_STEADY_AUTO */
 } dmb_static_options;
@@ -51,9 +52,9 @@ typedef struct dmb_static_report {
     double lateral_move; /* [m] largest displacement from the starting pose */
     uint32_t cuts, line_searches; /* [-] load steps that were halved; corrections that were shortened by a line search */
     int32_t negative; /* [-] negative eigenvalues of the stiffness (eq:signs.bounds), by which the equilibrium is unstable; -1:
-        not resolved. UNSYMMETRIC: the real negative ones; above 400 coordinates those within reach of the symmetric part, or if
-        there are any, those among the 108 nearest 0. Of a state that moves (`steady`): in its moving axes with centrifugal
-        forces; gyroscopic ones may hold it, or damping not */
+        not resolved (none is known to be negative; `unresolved`). UNSYMMETRIC: the real negative ones; above 400 coordinates
+        those within reach of the symmetric part, or if there are any, those among the 108 nearest 0. Of a state that moves
+        (`steady`): in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not */
     int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was assessed */
     int32_t steady, steady_reserved; /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: kind of the state */
     int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn together counted
@@ -65,13 +66,14 @@ typedef struct dmb_static_report {
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, or, where
- * motion drives move, in a steady motion (`steady`). lib/theory/statics.md has the strategies, from Newton to relaxation, and the
- * forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy ledger
- * restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis sum to
- * 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE: its
- * stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message says
- * which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with parts that are not round, RIGID with gravity,
- * loads, supports, joints or a hole off the axis); the state is then that before the call. O(elements) an iteration. */
+ * motion drives move, in a steady motion (`steady`). lib/theory/statics.md has the strategies, from Newton to relaxation, and
+ * the forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy
+ * ledger restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis
+ * sum to 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE:
+ * its stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message
+ * says which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with an eccentric mass, pre-bent pipe or load
+ * across that turns with its part, RIGID with gravity, loads, supports, joints or a hole off the axis); the state is then that
+ * before the call. O(elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------- */
@@ -90,7 +92,8 @@ typedef struct dmb_buckling_options {
     dmb_id part; /* load or drive of DMB_SCALE_PART */
     double factor_max, tolerance; /* [unit of the factor; -] not looked beyond, > 0; of factors, 1e-15 .. 0.1; default 1e12,
         1e-10 */
-    double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): by a millionth of an element */
+    double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): moves the string by a millionth
+        of an element */
     double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
@@ -134,15 +137,17 @@ typedef struct dmb_buckling dmb_buckling; /* critical factors and shapes */
 /* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is
  * singular, K the tangent stiffness with its contacts as they are, dK its change along the response of the state to the pattern
  * of loads (eq:buckling.pencil); with joints both are those of the independent coordinates. A linearisation is an extrapolation,
- * so the equilibria are followed to the factor, linearised again, and so on, until an eigenvalue of their stiffness passes 0 or
- * has a deep minimum (DMB_BUCKLING_DIP: one factor), and once more in steps of half the length (lib/theory/statics.md). Notes,
- * the first that applies: DMB_NOTE_FLUTTER: a damped mode grows before the lowest factor, or up to a factor_max below 1e12;
- * DMB_NOTE_INCOMPLETE: that could not be assessed though K is unsymmetric; DMB_NOTE_EXTRAPOLATED: some of the factors are not
- * confirmed; DMB_NOTE_STOPPED: fewer than `count` lie below factor_max or can be found. Errors: DMB_ERR_ORDER (the state is no
- * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the
- * equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that slides or turns
- * by its drives: take DMB_STEADY_AT_REST, and the slip here, for it). Some 40 counts a factor and 10 to 100 iterations of the
- * path, each O(elements); memory: the sim's twice more and 3 matrices. */
+ * good where sections turn and contacts shift little, so the equilibria are followed to the factor, linearised again, and so on,
+ * until an eigenvalue of their stiffness passes 0 or has a deep minimum (DMB_BUCKLING_DIP: one factor), and again in steps of
+ * half the length, up to two times, until two runs agree (lib/theory/statics.md). Notes, the first that applies:
+ * DMB_NOTE_FLUTTER: a damped mode grows before the lowest factor, or, without such a factor, up to a factor_max below 1e12 or to
+ * where the equilibria could be followed; DMB_NOTE_INCOMPLETE: that could not be assessed though K is unsymmetric;
+ * DMB_NOTE_EXTRAPOLATED: some of the factors are not confirmed; DMB_NOTE_STOPPED: fewer than `count` lie below factor_max or can
+ * be found (beyond a limit point none can; without a factor the message says how far the equilibria stay stable). Errors:
+ * DMB_ERR_ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is
+ * free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint;
+ * a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it). Some 40 counts a factor and
+ * 10 to 100 iterations of the path, each O(elements); memory: the sim's twice more and 3 matrices. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
@@ -221,7 +226,8 @@ typedef struct dmb_check_report {
     uint32_t couplings, constraints; /* [-] couplings; constraints of the caller */
     uint32_t motion_drives, other_drives, loads; /* [-] DMB_DRIVE_MOTION; DMB_DRIVE_LOAD and _CONTROL; loads */
     uint32_t coordinates; /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
-    uint32_t held, prescribed; /* [-] of them held by supports; moved by motion drives of strings and bodies */
+    uint32_t held, prescribed; /* [-] of them held by supports (start_free, end_free, free_mask); moved by motion drives of
+        strings and bodies */
     uint32_t constraint_rows, rank; /* [-] equations that act now: of joints, couplings, constraints, joint motion drives; rank of
         their matrix in the coordinates that are neither held nor prescribed */
     uint32_t degrees_of_freedom, redundant; /* [-] coordinates - held - prescribed - rank; rows - rank, implied by others */
@@ -247,10 +253,10 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
  * as dmb_analysis_check. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 /* Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of
- * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress between two points of contact over the yield strength
- * (yield_strength, else a strain of 0.003). error [-], shape (capacity): by pipe from the rig end; 0 for rigid and
- * axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by dmb_analysis_check. capacity >= pipes
- * of the string. Of a compiled model; any number of threads. O(elements). */
+ * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress of an element between two points of contact over the yield strength
+ * (yield_strength, else a strain of 0.003). It falls with the square of the length of the elements. error [-], shape (capacity):
+ * by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned
+ * of by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; any number of threads. O(elements). */
 DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity);
 
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------- */
@@ -350,7 +356,8 @@ DMB_API int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, doubl
 /* ---- Excitation --------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_EXCITATION_DRIVE = 0, /* time function of the drive place.part [its unit]: speed of MOTION, CONTROL, force of LOAD */
+    DMB_EXCITATION_DRIVE = 0, /* time function of the drive place.part [its unit]: speed of MOTION, target speed of CONTROL, force
+        of LOAD */
     DMB_EXCITATION_LOAD = 1, /* [-] factor of the load place.part */
     DMB_EXCITATION_BIT_LOAD = 2, /* [N] bottom-hole load of the bit place.part */
     DMB_EXCITATION_FORCE = 3, /* [N, N m] `component` of a force or moment at `place`, in `frame` */
@@ -362,7 +369,8 @@ enum {
     DMB_EXCITATION_FRICTION = 6, /* [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the
         state, along the hole (component DMB_X) or around it (DMB_RX) */
     DMB_EXCITATION_SETTING = 7 /* the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its
-        rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: DMB_ERR_UNSUPPORTED */
+        rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: DMB_ERR_UNSUPPORTED; one that still
+        changes is DMB_ERR_VALUE */
 };
 typedef struct dmb_excitation {
     uint32_t struct_size;
@@ -497,22 +505,24 @@ typedef struct dmb_speed_band {
     int32_t truncated, reserved1; /* 1: continues below speed_low, 2: above speed_high, 3: both, 0: whole */
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
-/* Bands of rotary speed to avoid about the accepted state of a sim, by the severity (eq:response.severity) of the linear response
- * in axes at rest; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands:
- * *band_count on entry is the capacity, the struct_size of the first holds for all; on return the number of bands, by rising
- * speed, DMB_NOTE_FULL where more were found. severity, shape (points), may be NULL: largest within half a step of the grid
- * around each speed. DMB_NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing
- * damps, a band is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state.
- * Errors as dmb_analysis_response. Cost: that of order_count responses. */
+/* Bands of rotary speed to avoid about the accepted state of a sim, by their severity: the sum over the orders of the largest
+ * amplitude of an output over its limit (eq:response.severity), by the linear response in axes at rest about the rotating state;
+ * 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on
+ * entry is the capacity, the struct_size of the first holds for all; on return the number of bands, by rising speed,
+ * DMB_NOTE_FULL where more were found. severity, shape (points), may be NULL: largest within half a step of the grid around each
+ * speed. DMB_NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band
+ * is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors as
+ * dmb_analysis_response. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits, uint32_t output_count,
                                     dmb_speed_band *bands, uint32_t *band_count, double *severity);
 
 /* ---- State space --------------------------------------------------------------------------------------------------
  * M d'' + C d' + K d = f about a state, as a frequency response has it, in first order: x' = A x + B u, y = C x + D u; C (i w -
- * A)^-1 B + D is the frequency response. x: displacements and speeds of `coordinates`, then the states of inputs, in their order:
- * the integral of the target of a controller with integral gain, the displacement of a motion drive. u: changes of the inputs, y:
- * of the outputs, both from the state. With joints the coordinates are independent ones. */
+ * A)^-1 B + D is the frequency response. x: displacements and speeds of `coordinates`, then the states of inputs, in their
+ * order: the integral of the target of a controller with integral gain, the displacement of a motion drive. u: changes of the
+ * inputs, y: of the outputs, both from the state. With joints the coordinates are independent ones. All terms of C and K act,
+ * unsymmetric ones (gyroscopic, friction, followers) too. */
 enum {
     DMB_STATE_FULL = 0, /* all coordinates */
     DMB_STATE_REDUCED = 1, /* amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input,
@@ -591,7 +601,7 @@ enum {
     DMB_ARRAY_QUATERNION = 3, /* [-] body to world, scalar first, shape (nodes, 4) */
     DMB_ARRAY_MULTIPLIER = 4, /* [N, ...] of the rows of DMB_MATRIX_JACOBIAN: residual + J^T multiplier = 0 */
     DMB_ARRAY_RESIDUAL = 5 /* [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and
-        accelerations, shape (rows): M v' + ... - f; rows of supports keep their their rows */
+        accelerations, shape (rows): M v' + ... - f; rows of supports keep theirs */
 };
 /* values NULL: *count is the length of the array. Else *count on entry is the capacity (too little is DMB_ERR_VALUE) and on
  * return the number written. */
@@ -616,15 +626,16 @@ DMB_API int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t f
 DMB_API int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
 
 /* ---- Sensitivities ------------------------------------------------------------------------------------------------ */
-/* Derivatives of the state and of any output by chosen parameters, along a run (eq:sensitivity.step). A parameter is given by two
- * sims besides the one that runs: the same scene with the parameter a little lower and a little higher, brought to the same time
- * in the same way (created; or settled by dmb_analysis_static). So anything that can be described can be one; of sims of one
- * model, an initial speed or the values of dmb_sim_set_drive, _set_input. */
+/* Derivatives of the state and of any output by chosen parameters, along a run (eq:sensitivity.step). A parameter is given by
+ * two sims besides the one that runs: the same scene with the parameter a little lower and a little higher, brought to the same
+ * time in the same way (created; or settled by dmb_analysis_static). So anything that can be described can be one (a coefficient
+ * of friction, a diameter, the energy of the rock, a value of a time function, the survey); of sims of one model, an initial
+ * speed or the values of dmb_sim_set_drive, _set_input. */
 typedef struct dmb_sensitivity dmb_sensitivity; /* derivatives of one run */
 typedef struct dmb_parameter {
     uint32_t struct_size;
-    int32_t one_sided; /* 1: steps are taken on the high side only, at half the cost, errors of first order in `step`; default
-        0 */
+    int32_t one_sided; /* 1: steps are taken on the high side only, at half the cost, errors of first order in `step`, not of
+        second; default 0 */
     double step; /* [unit of the parameter] > 0: `high` has it this much above the sim, `low` this much below. Quantities that
         depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt */
     const dmb_sim *low; /* only read, and only by dmb_sensitivity_create */
@@ -640,12 +651,15 @@ DMB_SIZED_STRUCT(dmb_parameter)
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
 DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
-/* dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it
- * was done. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this
- * was made. DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the
- * derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was
- * moved by other calls; _SINGULAR: the iteration matrix at the end of a step. Allocates nothing. Four parameters in contact cost
- * some 3 steps a step, one-sided 2; more with joints, bits, actuators, stuck places and callers' forces. */
+/* dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as
+ * it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by
+ * dmb_sim_set_drive only; inputs stay as they were set when this was made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact,
+ * a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes
+ * and errors as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; _SINGULAR: the iteration
+ * matrix at the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an
+ * evaluation, two solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of
+ * four parameters, one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places and callers'
+ * forces. */
 DMB_API int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report);
 DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report);
 /* Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the output over
@@ -706,8 +720,10 @@ enum {
 };
 typedef struct dmb_operation {
     uint32_t struct_size, reserved;
-    double axial_speed, rotary_speed; /* [m/s; rad/s] along the hole, > 0 into it; ; friction is along their sum; default 0 */
-    double weight_on_bit, torque_on_bit; /* [N; N m] along the hole against the end; >= 0, against the rotation; default 0 */
+    double axial_speed, rotary_speed; /* [m/s; rad/s] along the hole, > 0 into it; about its axis; friction is along their sum at
+        the pipe's surface; default 0 */
+    double weight_on_bit, torque_on_bit; /* [N; N m] against the string's end, along the hole; >= 0, against the rotation; default
+        0 */
 } dmb_operation;
 DMB_SIZED_STRUCT(dmb_operation)
 /* Usual speeds of an operation DMB_OPERATION_...: 0.1 m/s up or down, 1 rev/s, 0.005 m/s while drilling; loads on the bit 0. */
@@ -731,7 +747,8 @@ typedef struct dmb_torque_drag_row {
     uint32_t struct_size;
     int32_t locked; /* 1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN */
     double depth; /* [m] measured depth of the far end */
-    double hook_load, torque; /* [N; N m] effective axial force at the rig end, > 0: it pulls, < 0: it pushes; there */
+    double hook_load, torque; /* [N; N m] at the rig end: effective axial force, > 0: it pulls, < 0: it pushes; against friction
+        and bit */
     double transfer; /* [-] share of a little more push at the rig that arrives at the bit; 1 without friction */
     double lowest_force, lowest_at; /* [N; m] least effective axial force, most compressed where < 0; measured depth where */
     double sinusoidal_share; /* [-] largest share of the sinusoidal buckling load, as of a profile; NaN without wall force */
@@ -769,7 +786,7 @@ DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag
 /* ---- Hydraulics -------------------------------------------------------------------------------------------------- */
 typedef struct dmb_hydraulics {
     uint32_t struct_size, reserved;
-    double depth, vertical_depth; /* [m] measured depth of the far end; vertical one below the start of the string */
+    double depth, vertical_depth; /* [m] measured depth of the far end; vertical one below the string's start, < 0 above */
     double bore_loss, bit_loss, annulus_loss; /* [Pa] friction in the string; through nozzle_area; friction in the annulus */
     double pump_pressure; /* [Pa] sum of the three and of the difference of the columns; motors are left out */
     double circulating_density; /* [kg/m3] fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0 */
@@ -794,9 +811,10 @@ typedef struct dmb_fatigue_options {
     uint32_t points, reserved; /* [-] points around a section, 2 .. 360, the first on its y axis; default 8 */
     double stress_range; /* [Pa] levels spread over -stress_range .. stress_range, > 0; default 1e9 */
     double concentration; /* [-] factor on the stress, >= 1; default 1 */
-    double curve_stress, curve_cycles; /* [Pa; -] amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6 */
+    double curve_stress, curve_cycles; /* [Pa; -] amplitude borne for curve_cycles, > 0; the user's, no default; cycles 1e6 */
     double slope, endurance; /* [-; Pa] 1 .. 50, the user's, no default; amplitudes up to this do no damage, >= 0, default 0 */
-    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): none */
+    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): the mean does
+        not count */
 } dmb_fatigue_options;
 DMB_SIZED_STRUCT(dmb_fatigue_options)
 typedef struct dmb_fatigue_result {

@@ -18,7 +18,6 @@ typedef struct dmb_pose {
     double depth; /* [m] measured depth of the closest point of the hole's axis; 0 without a hole */
 } dmb_pose;
 DMB_SIZED_STRUCT(dmb_pose)
-/* */
 /* Pose of a place; the axes of a body or bit are its own. */
 DMB_API int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose);
 typedef struct dmb_motion {
@@ -96,7 +95,7 @@ DMB_SIZED_STRUCT(dmb_energy)
 DMB_API int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy);
 typedef struct dmb_momentum {
     uint32_t struct_size, reserved;
-    double linear[3], angular[3]; /* [kg m/s; kg m2/s] about the world's origin; world frame */
+    double linear[3], angular[3]; /* [kg m/s; kg m2/s] linear; angular about the world's origin; world frame */
     double mass; /* [kg] */
     double centre[3]; /* [m] centre of mass, world frame */
 } dmb_momentum;
@@ -119,7 +118,8 @@ DMB_API int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_stat
 DMB_API int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
 typedef struct dmb_joint_state {
     uint32_t struct_size;
-    int32_t frame; /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY, which is frame b of the joint */
+    int32_t frame; /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY, which is frame b of the joint; none
+        for frame a (DMB_ERR_VALUE) */
     int32_t state; /* DMB_JOINT_... */
     uint32_t constraint_rows, redundant, reserved; /* [-] equations it holds now; of them dropped because others imply them */
     double position[6], speed[6]; /* [m, rad; m/s, rad/s] coordinates, RX and RY over full turns, and their rates */
@@ -175,7 +175,8 @@ typedef struct dmb_hole_point {
     double position[3]; /* [m] of the axis, world frame */
     double tangent[3], normal[3]; /* [-] unit, to greater depth; to the centre of curvature, 0 where straight; world frame */
     double curvature, dogleg_severity; /* [rad/m; deg/30m] >= 0; the same in the drillers' unit */
-    double inclination, azimuth; /* [rad] from the downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi */
+    double inclination, azimuth; /* [rad] from the downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi, 0 if
+        vertical */
     double diameter; /* [m] and the wall's other constants here (scene.h): */
     double stiffness; /* [N/m^(n+1)] per metre of pipe */
     double restitution, damping; /* [-; N s/m2] per metre of pipe */
@@ -349,19 +350,23 @@ DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_stat
 /* clang-format off */
 enum {
     /* Readings of a driller; place.part is a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
-    DMB_OUTPUT_HOOK_LOAD = 100, /* [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls */
+    DMB_OUTPUT_HOOK_LOAD = 100, /* [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it
+        thrusts */
     DMB_OUTPUT_ROTATION_TORQUE = 101, /* [N m] that the rig puts into that section, > 0 along the string's x axis */
     DMB_OUTPUT_WEIGHT_ON_BIT = 102, /* [N] of all bits on the string: rock law and bottom-hole load */
     DMB_OUTPUT_TORQUE_ON_BIT = 103, /* [N m] of all bits on the string: rock law, against the rotation */
-    DMB_OUTPUT_RATE_OF_PENETRATION = 104, /* [m/s] of the string's first bit into the hole; with a rock law 0 while off bottom */
+    DMB_OUTPUT_RATE_OF_PENETRATION = 104, /* [m/s] of the string's first bit into the hole; with a rock law 0 while off bottom.
+        The rate of dmb_bit_state.advance */
     DMB_OUTPUT_BIT_SPEED = 105, /* [rad/s] about its axis, of the string's far end */
     DMB_OUTPUT_BIT_DEPTH = 106, /* [m] measured depth of the string's far end; 0 without a hole */
     DMB_OUTPUT_ROTARY_SPEED = 107, /* [rad/s] about its axis, of the string's rig end */
     DMB_OUTPUT_FEED_SPEED = 108, /* [m/s] along its axis, of the string's rig end, > 0 into the hole */
     DMB_OUTPUT_STRETCH = 109, /* [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths */
     DMB_OUTPUT_WIND_UP = 110, /* [rad] elastic, of the rig end against the far end: less the sum of the twist */
-    DMB_OUTPUT_OFF_BOTTOM = 111, /* [-] 1: no bit of the string with a rock law is on the bottom, else 0 */
-    DMB_OUTPUT_RIG_FORCE = 112, /* [N] by support and drives on the rig end, > 0 the rig pulls; 0 where a joint holds it */
+    DMB_OUTPUT_OFF_BOTTOM = 111, /* [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window
+        is the off-bottom share */
+    DMB_OUTPUT_RIG_FORCE = 112, /* [N] by support and drives on the rig end, > 0 the rig pulls: hook load, and inertia, weight and
+        friction of the end itself; 0 where a joint holds it */
     DMB_OUTPUT_RIG_TORQUE = 113, /* [N m] by support and drives, > 0 along the string's x axis */
     /* place.part a bit: dmb_query_bit */
     DMB_OUTPUT_BIT_ADVANCE = 120, DMB_OUTPUT_BIT_BOTTOM = 121, DMB_OUTPUT_BIT_DEPTH_OF_CUT = 122, /* [m] */
@@ -429,7 +434,8 @@ enum {
     DMB_OUTPUT_WORLD_VELOCITY = 420, DMB_OUTPUT_BODY_VELOCITY = 440, /* [m/s, rad/s] dmb_query_motion */
     DMB_OUTPUT_WORLD_ACCELERATION = 430, DMB_OUTPUT_BODY_ACCELERATION = 450, /* [m/s2, rad/s2] */
     /* Small motion of any place about the state of a linear analysis, six each; along world axes or (_BODY) those of the section,
-     * which turn with it in a state that spins unless the `axes` of the analysis are at rest. Not in runs. */
+     * which turn with it in a state that spins unless the `axes` of the analysis are at rest. Not in runs: take DISPLACEMENT,
+     * WORLD_ and BODY_VELOCITY there. */
     DMB_OUTPUT_VIBRATION = 460, DMB_OUTPUT_VIBRATION_BODY = 470, /* [m, rad] displacement from the state */
     DMB_OUTPUT_VIBRATION_VELOCITY = 480, DMB_OUTPUT_VIBRATION_VELOCITY_BODY = 490, /* [m/s, rad/s] its rate */
     DMB_OUTPUT_VIBRATION_ACCELERATION = 500, DMB_OUTPUT_VIBRATION_ACCELERATION_BODY = 510, /* [m/s2, rad/s2] */
@@ -457,7 +463,8 @@ DMB_API int32_t dmb_output_next(int32_t quantity);
 /* "drive_force of drive table [N m]", "axial_force of string main pipe 3 at 0.5 [N]": into the caller's text of `size` [byte],
  * ends with 0; 128 suffice. sim may be NULL: parts by their numbers. Errors: DMB_ERR_TOO_LARGE (room). */
 DMB_API int32_t dmb_output_text(const dmb_sim *sim, const dmb_output *output, char *text, uint32_t size);
-/* Whether this sim has each output; dmb_sim_message names the first that it has not. Errors as dmb_query_output. */
+/* Whether this sim has each output; dmb_sim_message names the first that it has not, and a valid place. Errors as
+ * dmb_query_output. */
 DMB_API int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count);
 
 /* ---- A window over outputs ----------------------------------------------------------------------------------------

@@ -152,8 +152,9 @@ DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
 /* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes
  * of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps
- * join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given
- * out. Errors, which leave *allocator unchanged: DMB_ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses). */
+ * join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was
+ * given out. In a full pool, calls that need memory give DMB_ERR_NO_MEMORY and change nothing. Errors, which leave *allocator
+ * unchanged: DMB_ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses). */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
 /* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0
  * for any other allocator. Cannot fail. */

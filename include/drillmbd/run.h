@@ -26,9 +26,12 @@ typedef struct dmb_sim_options {
     void *log_context;
     double spectral_radius; /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
     double newton_tolerance; /* [-] 0 (default): iterations leave a few hundredths of the step's own error at most, and a residual
-        below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the forces */
-    double tolerance_translation, tolerance_rotation; /* [m; rad] local error in dmb_sim_advance, > 0; default 1e-6, 1e-5 */
-    double step_min, step_max; /* [s] shortest step of dmb_sim_advance and of a divided one, > 0; longest; default 1e-9, 0.1 */
+        below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the
+        balancing forces */
+    double tolerance_translation, tolerance_rotation; /* [m; rad] local error of a step of dmb_sim_advance, > 0; default 1e-6,
+        1e-5 */
+    double step_min, step_max; /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; longest, > step_min;
+        default 1e-9, 0.1 */
     uint32_t max_cuts; /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
     int32_t bounded_work; /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with
         DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints, and fails if a stop or
@@ -65,16 +68,19 @@ DMB_API double dmb_sim_time(const dmb_sim *sim); /* [s] of the last accepted sta
 /* [-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen.
  * Returns 0, or nonzero to end the call. */
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
-/* From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the thread of
- * the call (an eigenproblem of LAPACK is one interval). Nonzero ends the call with DMB_ERR_CANCELLED and nothing changed
- * (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state; dmb_sim_advance there with DMB_NOTE_CANCELLED). A
- * signal handler or another thread sets a flag that the function reads. NULL (default): none. Not in snapshots and hashes. */
+/* From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals
+ * (examples/programming, Runs) in the thread of the call (an eigenproblem of LAPACK is one interval). Nonzero ends the call with
+ * DMB_ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state;
+ * dmb_sim_advance there with DMB_NOTE_CANCELLED). A signal handler or another thread sets a flag that the function reads. NULL
+ * (default): none. Not in snapshots and hashes. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
-/* Sees the sim after an accepted step; may query, record and save it. Returns 0, or nonzero to end the call. */
+/* Sees the sim after an accepted step; may query, record and save it, but not change it. Returns 0, or nonzero to end the
+ * call. */
 typedef int32_t (*dmb_step_fn)(void *context, const dmb_sim *sim);
 /* From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and each of
- * dmb_sim_advance and _advance_to_event that is accepted for good. Nonzero before the end of the call: DMB_NOTE_STOPPED.
- * dmb_analysis_stepped_sine calls it too, and is not ended by it. NULL (default): none. Not in snapshots and hashes. */
+ * dmb_sim_advance and _advance_to_event that is accepted for good: not parts of a divided step, nor steps that are repeated to
+ * locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not
+ * ended by it. NULL (default): none. Not in snapshots and hashes. */
 DMB_API int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context);
 typedef struct dmb_step_report {
     uint32_t struct_size, steps; /* [-] accepted integration steps in this call */
@@ -93,10 +99,10 @@ DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *rep
  * report has the sums and maxima of them all. The status is the largest note of a step, with its message, DMB_NOTE_STOPPED, or
  * the error that ended the calls, as dmb_sim_step; the state is then that after *done of them. */
 DMB_API int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report);
-/* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors of
- * steps add up over a run: repeat it with a tenth of the tolerances to estimate the error at its end. DMB_NOTE_TOLERANCE where a
- * step of step_min was too long for them; before that DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as
- * dmb_sim_step; the state is then the last accepted one. */
+/* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors
+ * of steps add up over a run, to some thousand times the tolerances in 10 s: repeat it with a tenth of the tolerances to
+ * estimate the error at its end. DMB_NOTE_TOLERANCE where a step of step_min was too long for them; before that DMB_NOTE_STOPPED
+ * after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose
@@ -115,7 +121,8 @@ DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. It fits every sim of the same compiled
  * model with the same options, which continues bit for bit. Bytes that are no state of it, forged ones too, are refused
- * (DMB_ERR_VALUE, the message states field, value and bound). About 0.9 kB an element are factors kept from step to step. */
+ * (DMB_ERR_VALUE, the message states field, value and bound); accepted bytes cannot lead a step out of bounds. About 0.9 kB an
+ * element are factors kept from step to step (none with joints). */
 DMB_API int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size);
 DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
 DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);
@@ -124,8 +131,9 @@ DMB_API int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash);
 
 /* ---- Inputs ----------------------------------------------------------------------------------------------------- */
 /* From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are
- * adapted to jumps. A change of density is work of loads. DMB_NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors:
- * DMB_ERR_VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR, _UNSUPPORTED. O(elements). */
+ * adapted to jumps. The energy of weight that a change of density adds is work of loads. Setting a value again does nothing.
+ * DMB_NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors: DMB_ERR_VALUE (bounds; limits of a drive), _CALLBACK,
+ * _SINGULAR, _UNSUPPORTED. O(elements). */
 DMB_API int32_t dmb_sim_set_input(dmb_sim *sim, dmb_id input, double value);
 DMB_API int32_t dmb_sim_set_inputs(dmb_sim *sim, const dmb_id *inputs, const double *values, uint32_t count);
 typedef struct dmb_input_state {

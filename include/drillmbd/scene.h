@@ -66,7 +66,8 @@ DMB_API int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, d
 /* Component indices of body-frame velocity. */
 enum { DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5 };
 /* Sets of components are built from DMB_FREE_* by |; a set of component indices is refused, as is 0; DMB_FREE_NONE is the empty
- * set and may be in any. A set of free components must be closed under motion (Herve 1978): these with names. */
+ * set and may be in any. A set of free components must be closed under motion (the subgroups of displacements, Herve 1978):
+ * these with names; others are refused and need a joint. */
 enum {
     DMB_FREE_X = 256, DMB_FREE_Y = 512, DMB_FREE_Z = 1024,
     DMB_FREE_RX = 2048, DMB_FREE_RY = 4096, DMB_FREE_RZ = 8192, DMB_FREE_NONE = 16384,
@@ -100,7 +101,8 @@ typedef struct dmb_environment_def {
     double yield_stress; /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
     double nozzle_area; /* [m2] of the bit in all; 0 (default): the last pipe is open */
     double flow_eccentricity; /* [-] of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0
-        (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag */
+        (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag, at any
+        pose of the string */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -116,10 +118,11 @@ enum {
     DMB_SEGMENT_CALLBACK = 5, /* the caller's function */
     DMB_SEGMENT_PERIODIC = 6, /* TABLE repeated before and after, with the period last time - first time */
     DMB_SEGMENT_PER_REVOLUTION = 7 /* h0 + (h1 + share w) sin(order theta + phase): w is the time function `of`, theta its
-        integral from 0 s. A worn gear: share alone, `of` the speed that turns it */
+        integral from 0 s. Its own integral is exact to round-off. A worn gear: share alone, `of` the speed that turns it */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that
- * `provides` does not announce are by differences and quadrature. All within +-DMB_UNLIMITED. Returns 0, or nonzero to stop. */
+ * `provides` does not announce are computed by differences and quadrature. All within +-DMB_UNLIMITED. Returns 0, or nonzero to
+ * stop. */
 typedef int32_t (*dmb_time_fn)(void *context, double time, double out[3]);
 enum { DMB_PROVIDES_RATE = 1, DMB_PROVIDES_INTEGRAL = 2 };
 typedef struct dmb_segment {
@@ -204,7 +207,8 @@ typedef struct dmb_wall_def {
     double exponent; /* [-] n, 1 .. 3; default 1 */
     double restitution; /* [-] e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less;
         HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
-    double damping, impact_depth; /* [N s/m2; m] c a metre, of KELVIN_VOIGT, IMPACT; of IMPACT: full from here; default 0, 1e-4 */
+    double damping, impact_depth; /* [N s/m2; m] c per metre of pipe, of KELVIN_VOIGT and IMPACT; penetration of full damping, of
+        IMPACT; default 0, 1e-4 */
     double approach_speed; /* [m/s] floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1
         mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more */
     double mu_static; /* [-] largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at
@@ -219,7 +223,7 @@ typedef struct dmb_wall_def {
         within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer.
         At most 2^18 stations. 0 (default): the hole stays as described */
     double cut_start, cut_end; /* [m] measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond;
-        0 */
+        default 0 */
     uint32_t friction_table_count; /* [-] points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first
         coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone,
         and the table acts in proportion */
@@ -242,7 +246,7 @@ enum {
 };
 /* A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold; a field left
  * at DMB_NOT_GIVEN is that of dmb_wall_def, as are the laws and all other values everywhere. Values change smoothly within
- * `transition` (eq:hole.section): where its diameter changes the wall pushes along the axis. */
+ * `transition` (eq:hole.section): where its diameter changes the wall pushes along the axis, so that no energy is made. */
 typedef struct dmb_hole_section {
     uint32_t struct_size;
     int32_t shape; /* DMB_HOLE_...; default DMB_HOLE_STEP; the last one must be a step */
@@ -259,7 +263,7 @@ typedef struct dmb_hole_section {
 DMB_SIZED_STRUCT(dmb_hole_section)
 /* Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall may be
  * added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that change too fast,
- * and parts wider than the hole (DMB_ERR_GEOMETRY). */
+ * and parts wider than the hole (DMB_ERR_GEOMETRY). dmb_query_hole costs O(log sections) then. */
 DMB_API int32_t dmb_model_add_hole_sections(dmb_model *model, const dmb_hole_section *sections, uint32_t count);
 
 /* ---- Strings and pipes ------------------------------------------------------------------------------------------- */
@@ -268,9 +272,11 @@ typedef struct dmb_string_def {
     int32_t follows_hole; /* 1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1 */
     double start_depth; /* [m] measured depth of the rig end; default 0 */
     double offset[2]; /* [m] sideways shift from the hole's axis along its y and z axes; default 0 */
-    double position[3], rotation[3]; /* [m; rad] rig end and rotation vector of its frame, world frame, without a hole */
+    double position[3], rotation[3]; /* [m; rad] rig end and rotation vector of its frame, world frame, if follows_hole is 0 or
+        there is no hole */
     double velocity[6]; /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0 */
-    int32_t start_free, end_free; /* [-] free at the rig end, the far end; default DMB_FREE_CYLINDRICAL, DMB_FREE_ALL */
+    int32_t start_free, end_free; /* [-] sets of free components at the rig end, the far end; default DMB_FREE_CYLINDRICAL,
+        DMB_FREE_ALL */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
 } dmb_string_def;
 DMB_SIZED_STRUCT(dmb_string_def)
@@ -292,15 +298,16 @@ typedef struct dmb_pipe_def {
     double young_modulus, poisson_ratio; /* [Pa; -] > 0; -1 < nu < 0.5; default 2.1e11, 0.3 */
     double density, shear_factor; /* [kg/m3; -] > 0; kappa in GA = kappa G A, > 0; default 7850, 0.5 (thin tube) */
     double damping_time; /* [s] tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau;
-        default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; steel: 1e-4 */
+        default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; 1e-4 is usual for
+        steel pipes in a hole */
     double joint_length; /* [m] of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0 */
     double joint_outer_diameter, joint_inner_diameter; /* [m] default 0: as the pipe */
     double joint_mass; /* [kg] 0: from the diameters, length and density */
     double joint_inertia[2]; /* [kg m2] about its axis and across, at its centre, first <= twice the second; 0: by geometry */
     double eccentricity, eccentricity_angle; /* [m; rad] distance of the pipe's centre of mass from its axis, >= 0; its angle from
         y towards z of the section frame; default 0 */
-    double eccentricity_spread, angle_spread; /* [m; rad] uniform random addition pipe by pipe, -spread .. spread (>= 0); default
-        0 */
+    double eccentricity_spread, angle_spread; /* [m; rad] uniform random additions pipe by pipe, -spread .. spread, >= 0
+        (eccentricity cut at 0); default 0 */
     double curvature[3]; /* [rad/m] unstressed twist and curvature about x, y, z; default 0 */
     double section_stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters */
     double section_mass; /* [kg/m] 0: from the diameters */
@@ -320,9 +327,10 @@ DMB_API int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, u
 
 /* ---- Stabilisers ------------------------------------------------------------------------------------------------ */
 /* A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its
- * middle, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of
- * its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). Its place in
- * queries, loads, springs, joints and forces is {its id, 0, 0}: the middle. */
+ * middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle,
+ * by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own
+ * (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the
+ * middle. */
 typedef struct dmb_stabiliser_def {
     uint32_t struct_size, pipe; /* [-] number along the string; default 0 */
     dmb_id string; /* {0, 0}: the model's first string */
@@ -334,7 +342,7 @@ typedef struct dmb_stabiliser_def {
     double density; /* [kg/m3] > 0, also for its buoyancy: its volume is mass/density; default 7850 */
     char name[24]; /* for messages, ends with 0; default "" */
     double added_mass[2]; /* [kg] of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0,
-        and DMB_NOT_GIVEN across: by added_mass of the environment, its ends left out */
+        and DMB_NOT_GIVEN across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out */
 } dmb_stabiliser_def;
 DMB_SIZED_STRUCT(dmb_stabiliser_def)
 /* Pipes may be added before or after. dmb_model_compile refuses pipes that are not there (DMB_ERR_VALUE), stabilisers that
@@ -351,7 +359,7 @@ typedef struct dmb_body_def {
     double mass; /* [kg] > 0; default 1 */
     double centre[3]; /* [m] centre of mass from the reference point, body frame; default 0 */
     double inertia[6]; /* [kg m2] xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive
-        definite, no principal moment above the sum of the others by more than 1e-6; default 1e-3 on the diagonal */
+        definite, no principal moment above the sum of the others by more than 1e-6 of itself; default 1e-3 on the diagonal */
     double position[3], rotation[3]; /* [m; rad] reference point and rotation vector of a free body, world frame; default 0 */
     double velocity[6]; /* [m/s, rad/s] of a free body at time 0, body frame; default 0 */
     int32_t free_mask, reserved; /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
@@ -369,7 +377,8 @@ DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dm
 enum {
     DMB_ROCK_NONE = 0,
     DMB_ROCK_RATE = 1, /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as
-        Omega falls: where a bit may stick or bounce (undamped pipes, say) steps may find no solution; take the next one */
+        Omega falls, so that a bit that is slowed down stops at once: where a bit may stick or bounce (undamped pipes, say) steps
+        may find no solution, however short; take the next one */
     DMB_ROCK_REGENERATIVE = 2 /* Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left */
 };
 typedef struct dmb_bit_def {
@@ -378,9 +387,10 @@ typedef struct dmb_bit_def {
     dmb_id string; /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
     dmb_id load; /* [N] time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none */
     double mass; /* [kg] > 0; default 5 */
-    double inertia[2]; /* [kg m2] about the axis and across, at the centre, first <= twice second; 0 (default): of a cylinder */
+    double inertia[2]; /* [kg m2] about the axis and across, at the centre, first <= twice second; 0 (default): of a solid
+        cylinder */
     double diameter, length; /* [m] gauge that meets the wall, <= hole, 0: no contact; > 0, centre at half of it beyond the
-        string; default 0.092, 0.1 */
+        string's end; default 0.092, 0.1 */
     double radius; /* [m] a of the rock law, > 0; default 0.047 */
     double intrinsic_energy, cutting_ratio; /* [Pa; -] eps, > 0; zeta, > 0; default 1e7, 0.6 */
     double contact_strength; /* [Pa] sigma, >= 0; default 1e7 */
@@ -566,8 +576,8 @@ enum { DMB_TABLE_LINES = 0, DMB_TABLE_CUBIC = 1 }; /* curve through a table */
  * free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction. */
 typedef struct dmb_spring_def {
     uint32_t struct_size;
-    int32_t acts; /* DMB_SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, damper included; default
-        DMB_SPRING_BOTH */
+    int32_t acts; /* DMB_SPRING_...: TENSION (rope) only pulls, COMPRESSION (buffer) only pushes; the damper acts as long as their
+        sum does so; default DMB_SPRING_BOTH */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
     dmb_place place_a, place_b; /* part {0, 0} (default): the ground; not both */
     double offset_a[3], offset_b[3]; /* [m] of the points from their places in their axes; ground: world; default 0 */
@@ -621,9 +631,10 @@ DMB_API int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, 
 
 /* ---- Bottom-hole assembly --------------------------------------------------------------------------------------- */
 /* A place that can be stuck in the hole: a jammed bit, tool joint, key seat. While it is stuck, springs and dampers hold it at
- * the pose where it got stuck, along its axis, about it, and sideways. It is released when the axial force reaches `overpull` or
- * the torque `overtorque`; the energy of the springs goes to `impact`. An input of target DMB_TARGET_STUCK sets it, 0 or 1; it is
- * 0 again once the place was released (examples/programming, Parts on strings). */
+ * the pose where it got stuck, in the axes that its section had there: along the axis, about it, and sideways. It is released
+ * when the axial force reaches `overpull` or the torque `overtorque`; the energy of the springs goes to `impact`. An input of
+ * target DMB_TARGET_STUCK sets it, 0 or 1; it is 0 again once the place was released (examples/programming, Parts on
+ * strings). */
 enum { DMB_STUCK_AXIAL = 1, DMB_STUCK_ROTATION = 2, DMB_STUCK_LATERAL = 4 };
 typedef struct dmb_stuck_def {
     uint32_t struct_size;
@@ -704,7 +715,8 @@ enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 13
     DMB_TARGET_FLOW_RATE = 13 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
 };
 /* clang-format on */
-/* Joint states are no inputs (dmb_sim_set_joint); a place that is fixed and released by an input is DMB_TARGET_STUCK. */
+/* Joint states are no inputs (dmb_sim_set_joint; examples/programming, Runs); a place that is fixed and released by an input is
+ * DMB_TARGET_STUCK. */
 enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };
 typedef struct dmb_input_def {
     uint32_t struct_size;
@@ -745,9 +757,10 @@ typedef struct dmb_output {
     dmb_place place; /* where the quantity is one of a place */
     int32_t quantity, reserved; /* DMB_OUTPUT_... */
 } dmb_output;
-/* An event is an output that crosses a level, evaluated at the ends of steps: a crossing and return within one step is missed. It
- * is located by steps really taken to it, so the state lies on it: at most `tolerance` in time beyond the first crossing, on the
- * far side of the level. EITHER: changes side (a start on the level is on neither); RISING: to above it, from it or below. */
+/* An event is an output that crosses a level, evaluated at the ends of steps: a crossing and return within one step is missed.
+ * It is located by steps really taken to it, so the state lies on it: at most `tolerance` in time beyond the first crossing, on
+ * the far side of the level. EITHER: it changes side (a start on the level is on neither). RISING: from at or below the level to
+ * above it. FALLING: from at or above it to below. */
 enum { DMB_EVENT_EITHER = 0, DMB_EVENT_RISING = 1, DMB_EVENT_FALLING = 2, DMB_EVENTS_MAX = 64 };
 typedef struct dmb_event_def {
     uint32_t struct_size;
@@ -771,7 +784,8 @@ DMB_API int32_t dmb_model_find_event(const dmb_model *model, const char *name, d
 DMB_API int32_t dmb_model_write(const dmb_model *model, void *bytes, size_t room, size_t *size);
 /* Makes the model of a record, open for changes before dmb_model_compile. Its scene is the same to the bit, and its ids have the
  * same index as those of the model that was written. Errors: DMB_ERR_NULL, _VALUE (damaged: length, checksum or content),
- * _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then. */
+ * _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then,
+ * dmb_last_error has the reason. */
 DMB_API int32_t dmb_model_read(const void *bytes, size_t size, const dmb_model_options *options, dmb_model **model);
 
 /* ---- Compile ----------------------------------------------------------------------------------------------------- */
@@ -785,7 +799,7 @@ enum {
 typedef struct dmb_compile_options {
     uint32_t struct_size;
     int32_t features; /* mask of DMB_FEATURE_...; others are not compiled; default DMB_FEATURE_ALL */
-    int32_t pipe_kind, reserved; /* DMB_PIPE_... for every pipe, or DMB_NOT_GIVEN (default) */
+    int32_t pipe_kind, reserved; /* DMB_PIPE_... for every pipe, or DMB_NOT_GIVEN (default): as described */
 } dmb_compile_options;
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any

@@ -188,7 +188,7 @@ class EnvironmentDef(Sized):
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
         "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
-        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag"),
+        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag, at any pose of the string"),
     }
 
 
@@ -233,7 +233,7 @@ class FrictionAt(Record):
 
 
 class HoleSection(Sized):
-    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold; a field left at NOT_GIVEN is that of dmb_wall_def, as are the laws and all other values everywhere. Values change smoothly within `transition` (eq:hole.section): where its diameter changes the wall pushes along the axis."
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold; a field left at NOT_GIVEN is that of dmb_wall_def, as are the laws and all other values everywhere. Values change smoothly within `transition` (eq:hole.section): where its diameter changes the wall pushes along the axis, so that no energy is made."
     struct_size: int
     shape: int
     depth: float
@@ -307,11 +307,11 @@ class StringDef(Sized):
         "follows_hole": ("", "1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1"),
         "start_depth": ("m", "measured depth of the rig end; default 0"),
         "offset": ("m", "sideways shift from the hole's axis along its y and z axes; default 0"),
-        "position": ("m", "rig end and rotation vector of its frame, world frame, without a hole"),
-        "rotation": ("rad", "rig end and rotation vector of its frame, world frame, without a hole"),
+        "position": ("m", "rig end and rotation vector of its frame, world frame, if follows_hole is 0 or there is no hole"),
+        "rotation": ("rad", "rig end and rotation vector of its frame, world frame, if follows_hole is 0 or there is no hole"),
         "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0"),
-        "start_free": ("-", "free at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
-        "end_free": ("-", "free at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
+        "start_free": ("-", "sets of free components at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
+        "end_free": ("-", "sets of free components at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
     }
 
@@ -379,7 +379,7 @@ class CompileOptions(Sized):
     ]
     field_docs = {
         "features": ("", "mask of FEATURE_...; others are not compiled; default FEATURE_ALL"),
-        "pipe_kind": ("", "PIPE_... for every pipe, or NOT_GIVEN (default)"),
+        "pipe_kind": ("", "PIPE_... for every pipe, or NOT_GIVEN (default): as described"),
     }
 
 
@@ -730,8 +730,8 @@ class Momentum(Sized):
         ("centre", c_double * 3),
     ]
     field_docs = {
-        "linear": ("kg m/s", "about the world's origin"),
-        "angular": ("kg m2/s", "world frame"),
+        "linear": ("kg m/s", "linear; angular about the world's origin; world frame"),
+        "angular": ("kg m2/s", "linear; angular about the world's origin; world frame"),
         "mass": ("kg", ""),
         "centre": ("m", "centre of mass, world frame"),
     }
@@ -806,7 +806,7 @@ class JointState(Sized):
         ("violation", c_double),
     ]
     field_docs = {
-        "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint"),
+        "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; none for frame a (ERR_VALUE)"),
         "state": ("", "JOINT_..."),
         "constraint_rows": ("-", "equations it holds now; of them dropped because others imply them"),
         "redundant": ("-", "equations it holds now; of them dropped because others imply them"),
@@ -964,7 +964,7 @@ class HolePoint(Sized):
         "curvature": ("rad/m", ">= 0"),
         "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
         "inclination": ("rad", "from the downward vertical, 0 .. pi"),
-        "azimuth": ("rad", "from +x (north) to -y (east), -pi .. pi"),
+        "azimuth": ("rad", "from +x (north) to -y (east), -pi .. pi, 0 if vertical"),
         "diameter": ("m", "and the wall's other constants here (scene.h):"),
         "stiffness": ("N/m^(n+1)", "per metre of pipe"),
         "restitution": ("-", "per metre of pipe"),
@@ -1186,7 +1186,7 @@ class StaticOptions(Sized):
         "tolerance": ("-", "residual over the norm of the forces that balance in it; default 1e-10"),
         "slip_axial": ("m/s", "friction acts as if the string slid along the hole and turned at these speeds"),
         "slip_rotation": ("rad/s", "both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
-        "load_steps": ("-", "equal steps from no load to full load, <= 10000; default 0: by the library"),
+        "load_steps": ("-", "equal steps from no load to full load, <= 10000, before the library chooses them itself; 0 (default): the whole load at once"),
         "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
         "steady": ("", "STEADY_..., default STEADY_AUTO"),
     }
@@ -1248,7 +1248,7 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "negative eigenvalues of the stiffness (eq:signs.bounds), by which the equilibrium is unstable; -1: not resolved. UNSYMMETRIC: the real negative ones; above 400 coordinates those within reach of the symmetric part, or if there are any, those among the 108 nearest 0. Of a state that moves (`steady`): in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not"),
+        "negative": ("-", "negative eigenvalues of the stiffness (eq:signs.bounds), by which the equilibrium is unstable; -1: not resolved (none is known to be negative; `unresolved`). UNSYMMETRIC: the real negative ones; above 400 coordinates those within reach of the symmetric part, or if there are any, those among the 108 nearest 0. Of a state that moves (`steady`): in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not"),
         "stiffness": ("", "STIFFNESS_...: the kind that was assessed"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: kind of the state"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
@@ -1469,7 +1469,7 @@ class CheckReport(Sized):
         "other_drives": ("-", "DRIVE_LOAD and _CONTROL"),
         "loads": ("-", "loads"),
         "coordinates": ("-", "velocity components of all nodes: 6 or (axial-torsional) 2 each"),
-        "held": ("-", "of them held by supports"),
+        "held": ("-", "of them held by supports (start_free, end_free, free_mask)"),
         "prescribed": ("-", "moved by motion drives of strings and bodies"),
         "constraint_rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
         "rank": ("-", "rank of their matrix in the coordinates that are neither held nor prescribed"),
@@ -1978,7 +1978,7 @@ class Parameter(Sized):
         ("name", c_char * 24),
     ]
     field_docs = {
-        "one_sided": ("", "1: steps are taken on the high side only, at half the cost, errors of first order in `step`; default 0"),
+        "one_sided": ("", "1: steps are taken on the high side only, at half the cost, errors of first order in `step`, not of second; default 0"),
         "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
         "low": ("", "only read, and only by dmb_sensitivity_create"),
         "high": ("", "as `low`"),
@@ -2005,10 +2005,10 @@ class Operation(Sized):
         ("torque_on_bit", c_double),
     ]
     field_docs = {
-        "axial_speed": ("m/s", "along the hole, > 0 into it; ; friction is along their sum; default 0"),
-        "rotary_speed": ("rad/s", "along the hole, > 0 into it; ; friction is along their sum; default 0"),
-        "weight_on_bit": ("N", "along the hole against the end; >= 0, against the rotation; default 0"),
-        "torque_on_bit": ("N m", "along the hole against the end; >= 0, against the rotation; default 0"),
+        "axial_speed": ("m/s", "along the hole, > 0 into it; about its axis; friction is along their sum at the pipe's surface; default 0"),
+        "rotary_speed": ("rad/s", "along the hole, > 0 into it; about its axis; friction is along their sum at the pipe's surface; default 0"),
+        "weight_on_bit": ("N", "against the string's end, along the hole; >= 0, against the rotation; default 0"),
+        "torque_on_bit": ("N m", "against the string's end, along the hole; >= 0, against the rotation; default 0"),
     }
 
 
@@ -2055,8 +2055,8 @@ class TorqueDragRow(Sized):
     field_docs = {
         "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN"),
         "depth": ("m", "measured depth of the far end"),
-        "hook_load": ("N", "effective axial force at the rig end, > 0: it pulls, < 0: it pushes"),
-        "torque": ("N m", "there"),
+        "hook_load": ("N", "at the rig end: effective axial force, > 0: it pulls, < 0: it pushes"),
+        "torque": ("N m", "against friction and bit"),
         "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
         "lowest_force": ("N", "least effective axial force, most compressed where < 0"),
         "lowest_at": ("m", "measured depth where"),
@@ -2106,7 +2106,7 @@ class Hydraulics(Sized):
     ]
     field_docs = {
         "depth": ("m", "measured depth of the far end"),
-        "vertical_depth": ("m", "vertical one below the start of the string"),
+        "vertical_depth": ("m", "vertical one below the string's start, < 0 above"),
         "bore_loss": ("Pa", "friction in the string"),
         "bit_loss": ("Pa", "through nozzle_area"),
         "annulus_loss": ("Pa", "friction in the annulus"),
@@ -2152,11 +2152,11 @@ class FatigueOptions(Sized):
         "points": ("-", "points around a section, 2 .. 360, the first on its y axis; default 8"),
         "stress_range": ("Pa", "levels spread over -stress_range .. stress_range, > 0; default 1e9"),
         "concentration": ("-", "factor on the stress, >= 1; default 1"),
-        "curve_stress": ("Pa", "amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6"),
-        "curve_cycles": ("-", "amplitude borne for curve_cycles; , > 0; the user's, no default; cycles 1e6"),
+        "curve_stress": ("Pa", "amplitude borne for curve_cycles, > 0; the user's, no default; cycles 1e6"),
+        "curve_cycles": ("-", "amplitude borne for curve_cycles, > 0; the user's, no default; cycles 1e6"),
         "slope": ("-", "1 .. 50, the user's, no default"),
         "endurance": ("Pa", "amplitudes up to this do no damage, >= 0, default 0"),
-        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): none"),
+        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): the mean does not count"),
     }
     bounds = {
         "classes": ("within", 8, 65536),
@@ -2218,7 +2218,7 @@ LOG_FN.__doc__ = "Called with a line of text, never during a step. The text live
 
 
 TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
-TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are by differences and quadrature. All within +-UNLIMITED. Returns 0, or nonzero to stop."
+TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-UNLIMITED. Returns 0, or nonzero to stop."
 
 
 ACCEPT_FN = CFUNCTYPE(None, c_void_p, c_double, c_uint32, POINTER(c_double))
@@ -2238,7 +2238,7 @@ PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never fal
 
 
 STEP_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p)
-STEP_FN.__doc__ = "Sees the sim after an accepted step; may query, record and save it. Returns 0, or nonzero to end the call."
+STEP_FN.__doc__ = "Sees the sim after an accepted step; may query, record and save it, but not change it. Returns 0, or nonzero to end the call."
 
 
 class Place(Record):
@@ -2398,7 +2398,7 @@ class PipeDef(Sized):
         "poisson_ratio": ("-", "-1 < nu < 0.5; default 0.3"),
         "density": ("kg/m3", "> 0; default 7850"),
         "shear_factor": ("-", "kappa in GA = kappa G A, > 0; default 0.5 (thin tube)"),
-        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; steel: 1e-4"),
+        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; 1e-4 is usual for steel pipes in a hole"),
         "joint_length": ("m", "of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0"),
         "joint_outer_diameter": ("m", "default 0: as the pipe"),
         "joint_inner_diameter": ("m", "default 0: as the pipe"),
@@ -2406,8 +2406,8 @@ class PipeDef(Sized):
         "joint_inertia": ("kg m2", "about its axis and across, at its centre, first <= twice the second; 0: by geometry"),
         "eccentricity": ("m", "distance of the pipe's centre of mass from its axis, >= 0; its angle from y towards z of the section frame; default 0"),
         "eccentricity_angle": ("rad", "distance of the pipe's centre of mass from its axis, >= 0; its angle from y towards z of the section frame; default 0"),
-        "eccentricity_spread": ("m", "uniform random addition pipe by pipe, -spread .. spread (>= 0); default 0"),
-        "angle_spread": ("rad", "uniform random addition pipe by pipe, -spread .. spread (>= 0); default 0"),
+        "eccentricity_spread": ("m", "uniform random additions pipe by pipe, -spread .. spread, >= 0 (eccentricity cut at 0); default 0"),
+        "angle_spread": ("rad", "uniform random additions pipe by pipe, -spread .. spread, >= 0 (eccentricity cut at 0); default 0"),
         "curvature": ("rad/m", "unstressed twist and curvature about x, y, z; default 0"),
         "section_stiffness": ("N, N, N, N m2, N m2, N m2", "EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters"),
         "section_mass": ("kg/m", "0: from the diameters"),
@@ -2419,7 +2419,7 @@ class PipeDef(Sized):
 
 
 class StabiliserDef(Sized):
-    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle."
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle."
     struct_size: int
     pipe: int
     string: Id
@@ -2456,7 +2456,7 @@ class StabiliserDef(Sized):
         "inertia": ("kg m2", "about its axis and across, at the middle, first <= twice second; 0 (default): of that cylinder"),
         "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
         "name": ("", "for messages, ends with 0; default \"\""),
-        "added_mass": ("kg", "of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0, and NOT_GIVEN across: by added_mass of the environment, its ends left out"),
+        "added_mass": ("kg", "of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0, and NOT_GIVEN across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out"),
     }
 
 
@@ -2503,7 +2503,7 @@ class BodyDef(Sized):
         "string": ("", "{0, 0}: the model's first string"),
         "mass": ("kg", "> 0; default 1"),
         "centre": ("m", "centre of mass from the reference point, body frame; default 0"),
-        "inertia": ("kg m2", "xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive definite, no principal moment above the sum of the others by more than 1e-6; default 1e-3 on the diagonal"),
+        "inertia": ("kg m2", "xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive definite, no principal moment above the sum of the others by more than 1e-6 of itself; default 1e-3 on the diagonal"),
         "position": ("m", "reference point and rotation vector of a free body, world frame; default 0"),
         "rotation": ("rad", "reference point and rotation vector of a free body, world frame; default 0"),
         "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0"),
@@ -2577,9 +2577,9 @@ class BitDef(Sized):
         "string": ("", "the bit is fixed to the far end of it; {0, 0}: the model's first string"),
         "load": ("N", "time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none"),
         "mass": ("kg", "> 0; default 5"),
-        "inertia": ("kg m2", "about the axis and across, at the centre, first <= twice second; 0 (default): of a cylinder"),
+        "inertia": ("kg m2", "about the axis and across, at the centre, first <= twice second; 0 (default): of a solid cylinder"),
         "diameter": ("m", "gauge that meets the wall, <= hole, 0: no contact; default 0.092"),
-        "length": ("m", "> 0, centre at half of it beyond the string; default 0.1"),
+        "length": ("m", "> 0, centre at half of it beyond the string's end; default 0.1"),
         "radius": ("m", "a of the rock law, > 0; default 0.047"),
         "intrinsic_energy": ("Pa", "eps, > 0; default 1e7"),
         "cutting_ratio": ("-", "zeta, > 0; default 0.6"),
@@ -2938,7 +2938,7 @@ class BucklingOptions(Sized):
         "part": ("", "load or drive of SCALE_PART"),
         "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
         "tolerance": ("-", "of factors, 1e-15 .. 0.1; default 1e-10"),
-        "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): by a millionth of an element"),
+        "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): moves the string by a millionth of an element"),
         "slip_axial": ("m/s", "friction as in dmb_static_options"),
         "slip_rotation": ("rad/s", "the stiffness is unsymmetric then"),
     }
@@ -3219,8 +3219,8 @@ class WallDef(WallPart, Sized):
         "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them"),
         "exponent": ("-", "n, 1 .. 3; default 1"),
         "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
-        "damping": ("N s/m2", "c a metre, of KELVIN_VOIGT, IMPACT; default 0"),
-        "impact_depth": ("m", "of IMPACT: full from here; default 1e-4"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
+        "impact_depth": ("m", "penetration of full damping, of IMPACT; default 1e-4"),
         "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more"),
         "mu_static": ("-", "largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks"),
         "mu_dynamic": ("-", ">= 0; default 0.30"),
@@ -3231,8 +3231,8 @@ class WallDef(WallPart, Sized):
         "bristle_damping": ("s/m", ">= 0, tangential, over normal force; default 0"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
-        "cut_start": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond"),
-        "cut_end": ("m", "0"),
+        "cut_start": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; default 0"),
+        "cut_end": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; default 0"),
         "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
         "friction_state_count": ("-", "numbers of its state at a contact point, 0 .. 16; default 0"),
         "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
@@ -3440,7 +3440,7 @@ class SpringDef(SpringPart, Sized):
         ("table_kind", c_int32),
     ]
     field_docs = {
-        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, damper included; default SPRING_BOTH"),
+        "acts": ("", "SPRING_...: TENSION (rope) only pulls, COMPRESSION (buffer) only pushes; the damper acts as long as their sum does so; default SPRING_BOTH"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "place_a": ("", "part {0, 0} (default): the ground"),
         "place_b": ("", "not both"),
@@ -3649,11 +3649,11 @@ class SimOptions(Sized):
         "log": ("", "NULL: silent"),
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the forces"),
-        "tolerance_translation": ("m", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
-        "tolerance_rotation": ("rad", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
-        "step_min": ("s", "shortest step of dmb_sim_advance and of a divided one, > 0; default 1e-9"),
-        "step_max": ("s", "longest; default 0.1"),
+        "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the balancing forces"),
+        "tolerance_translation": ("m", "local error of a step of dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "tolerance_rotation": ("rad", "local error of a step of dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
+        "step_max": ("s", "longest, > step_min; default 0.1"),
         "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
         "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints, and fails if a stop or one-sided spring turns a body by more than a radian in it; for control loops; default 0"),
         "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),

@@ -268,7 +268,7 @@ class SegmentKind(IntEnum):
     TABLE: straight lines through (time, value) pairs, constant outside
     CALLBACK: the caller's function
     PERIODIC: TABLE repeated before and after, with the period last time - first time
-    PER_REVOLUTION: h0 + (h1 + share w) sin(order theta + phase): w is the time function `of`, theta its integral from 0 s. A worn gear: share alone, `of` the speed that turns it
+    PER_REVOLUTION: h0 + (h1 + share w) sin(order theta + phase): w is the time function `of`, theta its integral from 0 s. Its own integral is exact to round-off. A worn gear: share alone, `of` the speed that turns it
     """
     CONSTANT = 0
     STEP = 1
@@ -400,7 +400,7 @@ ATTACH_END = Attach.END
 class RockLaw(IntEnum):
     """Values DMB_ROCK_... of the headers.
 
-    RATE: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls: where a bit may stick or bounce (undamped pipes, say) steps may find no solution; take the next one
+    RATE: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls, so that a bit that is slowed down stops at once: where a bit may stick or bounce (undamped pipes, say) steps may find no solution, however short; take the next one
     REGENERATIVE: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
     """
     NONE = 0
@@ -894,19 +894,19 @@ OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
 class Reading(IntEnum):
     """Values DMB_OUTPUT_... of the headers.
 
-    HOOK_LOAD: [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls
+    HOOK_LOAD: [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
     ROTATION_TORQUE: [N m] that the rig puts into that section, > 0 along the string's x axis
     WEIGHT_ON_BIT: [N] of all bits on the string: rock law and bottom-hole load
     TORQUE_ON_BIT: [N m] of all bits on the string: rock law, against the rotation
-    RATE_OF_PENETRATION: [m/s] of the string's first bit into the hole; with a rock law 0 while off bottom
+    RATE_OF_PENETRATION: [m/s] of the string's first bit into the hole; with a rock law 0 while off bottom. The rate of dmb_bit_state.advance
     BIT_SPEED: [rad/s] about its axis, of the string's far end
     BIT_DEPTH: [m] measured depth of the string's far end; 0 without a hole
     ROTARY_SPEED: [rad/s] about its axis, of the string's rig end
     FEED_SPEED: [m/s] along its axis, of the string's rig end, > 0 into the hole
     STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
     WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
-    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0
-    RIG_FORCE: [N] by support and drives on the rig end, > 0 the rig pulls; 0 where a joint holds it
+    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
+    RIG_FORCE: [N] by support and drives on the rig end, > 0 the rig pulls: hook load, and inertia, weight and friction of the end itself; 0 where a joint holds it
     RIG_TORQUE: [N m] by support and drives, > 0 along the string's x axis
     BIT_ADVANCE: [m]
     BIT_BOTTOM: [m]
@@ -1429,14 +1429,14 @@ MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 class ExcitationKind(IntEnum):
     """Values DMB_EXCITATION_... of the headers.
 
-    DRIVE: time function of the drive place.part [its unit]: speed of MOTION, CONTROL, force of LOAD
+    DRIVE: time function of the drive place.part [its unit]: speed of MOTION, target speed of CONTROL, force of LOAD
     LOAD: [-] factor of the load place.part
     BIT_LOAD: [N] bottom-hole load of the bit place.part
     FORCE: [N, N m] `component` of a force or moment at `place`, in `frame`
     UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
     FRICTION: [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
-    SETTING: the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED
+    SETTING: the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
     """
     DRIVE = 0
     LOAD = 1
@@ -1541,7 +1541,7 @@ class Array(IntEnum):
     POSITION: [m] of the nodes, world, shape (nodes, 3)
     QUATERNION: [-] body to world, scalar first, shape (nodes, 4)
     MULTIPLIER: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
-    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; rows of supports keep their their rows
+    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; rows of supports keep theirs
     """
     VELOCITY = 0
     ACCELERATION = 1
