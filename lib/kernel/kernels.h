@@ -11,6 +11,7 @@
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/normal_law.h"
+#include "math/block_pattern.h"
 #include "math/block_tridiagonal.h"
 
 /* Contribution to a node from the last element of a run, if the next element belongs to another run computed
@@ -293,6 +294,19 @@ typedef struct dmb_response_args {
     double *work;  /* shape (numbers in the chain's `upper`, 2, DMB_FREQUENCIES) */
 } dmb_response_args;
 
+/* The jointed chains of A(w) x = b in independent coordinates, R^T A(w) R, at the frequencies of a group. */
+typedef struct dmb_jointed_response_args {
+    uint32_t used, columns, stride, bad; /* as in dmb_response_args */
+    const dmb_block_pattern *pattern;    /* offsets of blocks without gaps */
+    const uint32_t *size, *row;          /* of each block: coordinates, and the first of them */
+    dmb_response_blocks blocks;          /* R^T M R, R^T C R, R^T K R, shape (values of the pattern) */
+    const double *stiffness, *mass;      /* scales of pivots, by coordinates */
+    double structural_damping;           /* as in dmb_response_args, as is: */
+    double omega[DMB_FREQUENCIES];
+    double *sides; /* b in, x out: shape (coordinates, stride, 2, DMB_FREQUENCIES) */
+    double *work;  /* shape (values of the pattern + the widest block, 2, DMB_FREQUENCIES) */
+} dmb_jointed_response_args;
+
 /* Sums of squares computed in lanes: of four six-DOF nodes, of twelve axial-torsional nodes. */
 #define DMB_SQUARES 24
 
@@ -341,6 +355,7 @@ typedef struct dmb_kernels {
     /* The same inside elements whose nodes are six-DOF. */
     void (*walls_inside)(dmb_wall_args *args, const dmb_inside_args *inside);
     void (*responses)(dmb_response_args *args);
+    void (*jointed_responses)(dmb_jointed_response_args *args);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL if the build or the processor does not support that width. */

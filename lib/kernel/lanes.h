@@ -7,6 +7,7 @@
 #include "kernel/lanes_axial_torsional_node.h"
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_response.h"
+#include "kernel/lanes_response_jointed.h"
 #include "kernel/lanes_wall.h"
 #include "kernel/lanes_wall_inside.h"
 #include "math/block_inverse.h"
@@ -366,4 +367,5 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .factor_part = factor_end,
                                  .towards_part = solve_towards_middle,
                                  .away_part = solve_from_middle,
-                                 .responses = responses};
+                                 .responses = responses,
+                                 .jointed_responses = jointed_responses};

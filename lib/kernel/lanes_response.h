@@ -21,10 +21,13 @@ typedef struct lane_complex {
 
 /* Frequencies of one call that are computed side by side, one in each lane. */
 typedef struct response_lanes {
-    dmb_real omega, square; /* [rad/s], [rad2/s2] */
-    const dmb_response_args *args;
-    uint32_t lane; /* index of the first of these frequencies in the call */
-    uint32_t bad;  /* one bit for each lane where a pivot is too small */
+    dmb_real omega, square;    /* [rad/s], [rad2/s2] */
+    double structural_damping; /* [-] eta */
+    uint32_t columns, stride;  /* right-hand sides, and their capacity */
+    double *sides;             /* first number of these frequencies */
+    uint32_t bad;              /* one bit for each lane where a pivot is too small */
+    uint32_t reserved;
+    const dmb_response_args *args; /* of a chain without joints */
 } response_lanes;
 
 /* Rows of block i: of D_i, of U_i, and of the right-hand sides, in place. */
@@ -89,34 +92,44 @@ DMB_LANES_INLINE void store_side(lane_complex x, double *to)
 /* Numbers of W, of the present lanes alone. */
 DMB_LANES_INLINE void store_number(lane_complex x, size_t i, double *to)
 {
-    memcpy(to + 2 * (size_t)DMB_REAL_LANES * i, &x, sizeof x);
+    double *at = to + 2 * (size_t)DMB_REAL_LANES * i;
+    memcpy(at, &x.re, sizeof x.re);
+    memcpy(at + DMB_REAL_LANES, &x.im, sizeof x.im);
 }
 
 DMB_LANES_INLINE lane_complex load_number(const double *from, size_t i)
 {
+    const double *at = from + 2 * (size_t)DMB_REAL_LANES * i;
     lane_complex x;
-    memcpy(&x, from + 2 * (size_t)DMB_REAL_LANES * i, sizeof x);
+    memcpy(&x.re, at, sizeof x.re);
+    memcpy(&x.im, at + DMB_REAL_LANES, sizeof x.im);
     return x;
 }
 
 /* From a row of the right-hand sides to the next one, and the first number of a row. */
 static inline size_t row_stride(const response_lanes *l)
 {
-    return 2 * (size_t)DMB_FREQUENCIES * l->args->stride;
+    return 2 * (size_t)DMB_FREQUENCIES * l->stride;
 }
 
 static inline double *side_of(const response_lanes *l, uint32_t row)
 {
-    return l->args->sides + row_stride(l) * row + l->lane;
+    return l->sides + row_stride(l) * row;
+}
+
+static inline void set_frequencies(response_lanes *l, const double *omega)
+{
+    memcpy(&l->omega, omega, sizeof l->omega);
+    l->square = l->omega * l->omega;
 }
 
 /* ---- One block --------------------------------------------------------------------------------------------------- */
 
-DMB_BLOCK_KERNEL void assemble_block(const response_lanes *l, int count, const dmb_response_blocks *blocks, uint32_t at,
+DMB_BLOCK_KERNEL void assemble_block(const response_lanes *l, int count, const dmb_response_blocks *blocks, size_t at,
                                      lane_complex *A)
 {
     const double *M = blocks->mass + at, *C = blocks->damping + at, *K = blocks->stiffness + at;
-    const double eta = l->args->structural_damping;
+    const double eta = l->structural_damping;
     for (int e = 0; e < count; e++) {
         A[e].re = K[e] - l->square * M[e];
         A[e].im = l->omega * C[e] + eta * K[e];
@@ -134,7 +147,7 @@ DMB_BLOCK_KERNEL void assemble_diagonal(const response_lanes *l, int n, uint32_t
 
 DMB_LANES_CALL void exchange_sides(const response_lanes *l, dmb_mask mask, double *x, double *y)
 {
-    for (uint32_t c = 0; c < l->args->columns; c++) {
+    for (uint32_t c = 0; c < l->columns; c++) {
         const size_t at = 2 * (size_t)DMB_FREQUENCIES * c;
         lane_complex a = load_side(x + at), b = load_side(y + at);
         complex_exchange(mask, &a, &b);
@@ -171,10 +184,9 @@ DMB_BLOCK_KERNEL void invert_pivot(const response_lanes *l, int n, int m, int k,
     }
 }
 
-/* Marks the lanes where pivot k of block i is zero, not finite, or of rounding size compared with K and w^2 M. */
-static inline void watch_pivot(response_lanes *l, uint32_t at, lane_complex pivot, lane_complex inverse)
+/* Marks the lanes where a pivot is zero, not finite, or of rounding size compared with K and w^2 M. */
+static inline void watch_pivot(response_lanes *l, double K, double M, lane_complex pivot, lane_complex inverse)
 {
-    const double K = fabs(l->args->diagonal.stiffness[at]), M = fabs(l->args->diagonal.mass[at]);
     const dmb_real size = complex_size(pivot), most = dmb_real_max(dmb_real_abs(inverse.re), dmb_real_abs(inverse.im));
     const dmb_mask holds =
         dmb_mask_at_most(dmb_real_of(DMB_BLOCK_PIVOT_MIN), size) & dmb_mask_at_most(size, dmb_real_of(DBL_MAX));
@@ -204,13 +216,15 @@ static inline void scale_sides(uint32_t columns, lane_complex f, double *x)
 /* U <- L^-1 U, b <- L^-1 b, with D = L R; R is left in D, the reciprocals of its diagonal in place of that. */
 DMB_BLOCK_KERNEL void solve_lower(response_lanes *l, int n, int m, uint32_t i, response_rows *r)
 {
-    const uint32_t columns = l->args->columns;
+    const uint32_t columns = l->columns;
     const size_t next = row_stride(l);
+    const double *K = l->args->diagonal.stiffness + l->args->layout->diag[i];
+    const double *M = l->args->diagonal.mass + l->args->layout->diag[i];
     lane_complex *D = r->D, *U = r->U;
     for (int k = 0; k < n; k++) {
         invert_pivot(l, n, m, k, r);
         const lane_complex inverse = complex_inverse(D[n * k + k]);
-        watch_pivot(l, l->args->layout->diag[i] + (uint32_t)(n * k + k), D[n * k + k], inverse);
+        watch_pivot(l, fabs(K[n * k + k]), fabs(M[n * k + k]), D[n * k + k], inverse);
         D[n * k + k] = inverse;
         for (int p = k + 1; p < n; p++) {
             const lane_complex f = complex_times(inverse, D[n * p + k]);
@@ -224,7 +238,7 @@ DMB_BLOCK_KERNEL void solve_lower(response_lanes *l, int n, int m, uint32_t i, r
 /* U <- R^-1 U, which is W, b <- R^-1 b. */
 DMB_BLOCK_KERNEL void solve_upper(const response_lanes *l, int n, int m, response_rows *r, double *W)
 {
-    const uint32_t columns = l->args->columns;
+    const uint32_t columns = l->columns;
     const size_t next = row_stride(l);
     for (int k = n - 1; k >= 0; k--) {
         lane_complex row[DMB_BLOCK_SIZE_MAX];
@@ -256,7 +270,7 @@ DMB_BLOCK_KERNEL void update_block(const response_lanes *l, int n, int m, uint32
             for (int j = 0; j < m; j++) complex_subtract(L[n * p + c], r->U[m * c + j], row + j);
         for (int j = 0; j < m; j++) r->D[m * p + j] = row[j];
         double *side = side_of(l, layout->row[i + 1] + (uint32_t)p);
-        for (int c = 0; c < n; c++) subtract_sides(l->args->columns, L[n * p + c], r->sides + next * (size_t)c, side);
+        for (int c = 0; c < n; c++) subtract_sides(l->columns, L[n * p + c], r->sides + next * (size_t)c, side);
     }
 }
 
@@ -279,7 +293,7 @@ DMB_BLOCK_KERNEL int forward_block(int n, int m, response_lanes *l, uint32_t i, 
 DMB_BLOCK_KERNEL int backward_block(int n, int m, const response_lanes *l, uint32_t i)
 {
     const dmb_block_layout *layout = l->args->layout;
-    const uint32_t columns = l->args->columns;
+    const uint32_t columns = l->columns;
     const double *W = l->args->work + 2 * (size_t)DMB_REAL_LANES * (layout->link[i] - layout->link[l->args->first]);
     const double *x = side_of(l, layout->row[i + 1]);
     double *b = side_of(l, layout->row[i]);
@@ -317,9 +331,12 @@ static void responses(dmb_response_args *args)
 {
     args->bad = 0;
     for (uint32_t lane = 0; lane < args->used; lane += DMB_REAL_LANES) {
-        response_lanes l = {.args = args, .lane = lane, .bad = 0};
-        memcpy(&l.omega, args->omega + lane, sizeof l.omega);
-        l.square = l.omega * l.omega;
+        response_lanes l = {.structural_damping = args->structural_damping,
+                            .columns = args->columns,
+                            .stride = args->stride,
+                            .sides = args->sides + lane,
+                            .args = args};
+        set_frequencies(&l, args->omega + lane);
         response_chain(&l);
         args->bad |= l.bad << lane;
     }

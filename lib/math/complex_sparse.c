@@ -158,26 +158,6 @@ static uint32_t size_at(const dmb_block_pattern *pattern, const dmb_complex_spar
     return matrix->size[pattern->order[position]];
 }
 
-static void clear_block(dmb_complex_array A, size_t numbers)
-{
-    memset(A.re, 0, numbers * sizeof(double));
-    memset(A.im, 0, numbers * sizeof(double));
-}
-
-/* Clears the part of the storage that the sizes at run time use. */
-void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix)
-{
-    for (uint32_t k = 0; k < pattern->n; k++) {
-        const size_t n = size_at(pattern, matrix, k);
-        clear_block(part(matrix->values, pattern->diagonal[k]), n * n);
-        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
-            const size_t m = size_at(pattern, matrix, pattern->later[e]);
-            clear_block(part(matrix->values, pattern->upper[e]), n * m);
-            clear_block(part(matrix->values, pattern->lower[e]), n * m);
-        }
-    }
-}
-
 /* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each later entry, in both orders. */
 static void update_from(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, uint32_t n, uint32_t a,
                         uint32_t end)

@@ -27,10 +27,8 @@ typedef struct dmb_complex_sparse {
     const uint32_t *size;     /* (n) present number of rows of block i, 0 .. capacity */
 } dmb_complex_sparse;
 
-/* Sets all values to zero, fill included: required before the values of every new factorisation. */
-void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix);
-/* Returns -1 on success, otherwise the first singular block in the order of elimination; the matrix is then partly
- * factored. */
+/* All values are required, 0 in the fill. Returns -1 on success, otherwise the first singular block in the order of
+ * elimination; the matrix is then partly factored. */
 int64_t dmb_complex_sparse_factor(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix);
 /* b on entry, x on return; the rows of block i begin at rhs[row[i]]. */
 void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,

@@ -1,6 +1,6 @@
 /* A frequency response has the same bits at a frequency whether it is asked for alone or among others, which are solved
  * side by side: excitations of every kind, more of them than one pass takes, reactions, and points that a refinement
- * adds. Each frequency alone is solved by the scalar factors. */
+ * adds, without and with joints. Each frequency alone is solved by the scalar factors. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,8 +9,46 @@
 
 enum { FREQUENCIES = 19, FORCES = 17, EXCITATIONS = FORCES + 2, OUTPUTS = 5 };
 
+/* A body that hangs from a place on a universal joint with springs. */
+static dmb_place add_hanging(rig *s, dmb_place from, double x)
+{
+    dmb_body_def link = dmb_body_def_default();
+    link.mass = 2.0;
+    link.inertia[0] = link.inertia[1] = link.inertia[2] = 0.1;
+    link.position[0] = x;
+    const dmb_id body = add_body(s, &link);
+    dmb_joint_def joint = joint_between(DMB_JOINT_UNIVERSAL, from, dmb_station(body, 0, 0.0));
+    joint.stiffness[4] = joint.stiffness[5] = 300.0;
+    joint.damping[4] = 0.5;
+    (void)add_joint(s, &joint);
+    return dmb_station(body, 0, 0.0);
+}
+
+/* Beyond the end of the string a second one on a universal joint and three bodies behind it, all of them jointed;
+ * beside them a string without joints. */
+static void add_jointed(rig *s, dmb_pipe_def pipe)
+{
+    dmb_string_def def = dmb_string_def_default();
+    dmb_place end = dmb_station(pipe.string, 9, 1.0);
+    def.start_free = DMB_FREE_ALL;
+    def.position[0] = 10.0 * pipe.length;
+    dmb_joint_def joint = joint_between(DMB_JOINT_UNIVERSAL, end, end);
+    pipe.string = add_string(s, &def);
+    (void)add_pipes(s, &pipe, 4);
+    joint.place_b = dmb_station(pipe.string, 0, 0.0);
+    joint.stiffness[4] = 2e3;
+    joint.damping[5] = 3.0;
+    (void)add_joint(s, &joint);
+    end = dmb_station(pipe.string, 3, 1.0);
+    for (int i = 0; i < 3; i++) end = add_hanging(s, end, 14.0 * pipe.length);
+    def.start_free = DMB_FREE_NONE;
+    def.position[0] = 0.0;
+    pipe.string = add_string(s, &def);
+    (void)add_pipes(s, &pipe, 3);
+}
+
 /* Ten pipes at rest on the wall of their hole, fed and turned by motion drives. */
-static dmb_id open_string(rig *s, int32_t kind, dmb_id drives[2])
+static dmb_id open_string(rig *s, int32_t kind, int jointed, dmb_id drives[2])
 {
     rig_open(s, 0.0, 0.0, -9.81);
     dmb_wall_def hole = s1_hole();
@@ -26,6 +64,7 @@ static dmb_id open_string(rig *s, int32_t kind, dmb_id drives[2])
     pipe.damping_time = 2e-3;
     pipe.string = add_string(s, &def);
     (void)add_pipes(s, &pipe, 10);
+    if (jointed) add_jointed(s, pipe);
     const dmb_id still = add_constant(s, 0.0);
     drives[0] = add_simple_drive(s, DMB_DRIVE_MOTION, pipe.string, DMB_X, still);
     drives[1] = add_simple_drive(s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, still);
@@ -96,11 +135,12 @@ static int differences(const rig *s, const question *q, const dmb_response *all,
 static void alone_and_among_others(void **state)
 {
     (void)state;
-    for (int path = 0; path < 2; path++) {
+    for (int kind = 0; kind < 3; kind++) {
+        const int path = kind == 1;
         rig s;
         dmb_id drives[2];
         uint32_t shape[3];
-        const dmb_id string = open_string(&s, path ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE, drives);
+        const dmb_id string = open_string(&s, path ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE, kind == 2, drives);
         question q = question_of(string, drives, path);
         q.options.points = FREQUENCIES;
         q.options.refinement = 2;
@@ -127,7 +167,7 @@ static void one_frequency_of_a_group_is_refused(void **state)
     rig s;
     dmb_id drives[2];
     dmb_response *response = NULL;
-    const dmb_id string = open_string(&s, DMB_PIPE_FLEXIBLE, drives);
+    const dmb_id string = open_string(&s, DMB_PIPE_FLEXIBLE, 0, drives);
     question q = question_of(string, drives, 0);
     q.options.frequency_low = 0.0;
     q.options.points = FREQUENCIES;

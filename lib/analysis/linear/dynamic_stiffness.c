@@ -62,8 +62,8 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-static void assemble_array(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
-                           const double *restrict C, const double *restrict K, dmb_complex_array A)
+void dmb_dynamic_assemble(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
+                          const double *restrict C, const double *restrict K, dmb_complex_array A)
 {
     double *restrict re = A.re, *restrict im = A.im;
     const double w = s->omega, w2 = w * w, eta = s->structural_damping, g = s->growth;
@@ -74,17 +74,33 @@ static void assemble_array(const dmb_dynamic_stiffness *s, size_t count, const d
     for (size_t i = 0; i < count; i++) im[i] += 2.0 * g * w * M[i];
 }
 
-/* Assembles A; constrained rows and columns are identity. */
-static void assemble(dmb_dynamic_stiffness *s)
+static dmb_complex_array part(dmb_complex_array array, size_t offset)
+{
+    const dmb_complex_array out = {array.re + offset, array.im + offset};
+    return out;
+}
+
+/* Assembles A of a chain without joints. */
+static void assemble_chain(dmb_dynamic_stiffness *s, const dmb_chain *chain)
 {
     const dmb_linear_matrix *M = &s->linear->mass, *C = &s->linear->damping, *K = &s->linear->stiffness;
+    const dmb_block_layout *layout = &s->linear->scene.layout;
+    const dmb_complex_block_matrix *A = &s->factors;
+    const size_t end = chain->first + chain->count, d = layout->diag[chain->first], l = layout->link[chain->first];
+    const size_t diagonal = layout->diag[end] - d, link = layout->link[end - 1] - l;
+    dmb_dynamic_assemble(s, diagonal, M->diagonal + d, C->diagonal + d, K->diagonal + d, part(A->diagonal, d));
+    dmb_dynamic_assemble(s, link, M->lower + l, C->lower + l, K->lower + l, part(A->lower, l));
+    dmb_dynamic_assemble(s, link, M->upper + l, C->upper + l, K->upper + l, part(A->upper, l));
+}
+
+/* Assembles A of chains without joints; constrained rows and columns are identity. */
+static void assemble(dmb_dynamic_stiffness *s)
+{
     const dmb_scene *scene = &s->linear->scene;
     const dmb_block_layout *layout = &scene->layout;
-    const size_t diagonal = layout->diag[layout->n], link = layout->link[layout->n - 1];
     const dmb_complex_block_matrix *A = &s->factors;
-    assemble_array(s, diagonal, M->diagonal, C->diagonal, K->diagonal, A->diagonal);
-    assemble_array(s, link, M->lower, C->lower, K->lower, A->lower);
-    assemble_array(s, link, M->upper, C->upper, K->upper, A->upper);
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (!scene->chains[c].jointed) assemble_chain(s, scene->chains + c);
     for (uint32_t i = 0; i < scene->constrained_count; i++) {
         const uint32_t node = scene->constrained_node[i];
         A->diagonal.re[layout->diag[node] + (layout->size[node] + 1u) * scene->constrained_component[i]] = 1.0;
@@ -139,7 +155,7 @@ void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *s, dmb_complex_array x)
     dmb_dynamic_subtract(s, s->told, x);
 }
 
-static void add_reported(const dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_dynamic_add_prescribed(const dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     for (uint32_t r = 0; r < s->linear->rows; r++) {
         x.re[r] += s->told.re[r];
@@ -157,7 +173,7 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_co
         if (!scene->chains[c].jointed)
             dmb_complex_block_solve(&scene->layout, &s->factors, scene->chains[c].first, scene->chains[c].count, x);
     if (scene->cluster_count > 0) dmb_jointed_chains_solve(s, x);
-    if (moves) add_reported(s, x);
+    if (moves) dmb_dynamic_add_prescribed(s, x);
 }
 
 /* ---- Products ---------------------------------------------------------------------------------------------------- */

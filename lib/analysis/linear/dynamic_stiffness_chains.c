@@ -44,10 +44,14 @@ void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_
     out->size = DMB_ARENA_ARRAY(arena, uint32_t, scene->block_count);
     out->row = DMB_ARENA_ARRAY(arena, uint32_t, scene->block_count);
     out->place = DMB_ARENA_ARRAY(arena, uint32_t, linear->coordinates);
+    out->pattern.diagonal = DMB_ARENA_ARRAY(arena, size_t, scene->block_count);
+    out->pattern.upper = DMB_ARENA_ARRAY(arena, size_t, scene->pattern.entries);
+    out->pattern.lower = DMB_ARENA_ARRAY(arena, size_t, scene->pattern.entries);
+    for (int m = 0; m < 3; m++) out->blocks[m] = DMB_ARENA_DOUBLES(arena, scene->pattern.values);
     out->matrix.values = take(arena, scene->pattern.values);
     out->matrix.pivot = DMB_ARENA_ARRAY(arena, uint32_t, scene->pattern.rows);
     out->solution = take(arena, size.count);
-    out->half = take(arena, (size_t)DMB_NODE_SIX_DOF * size.widest);
+    out->half = DMB_ARENA_DOUBLES(arena, (size_t)DMB_NODE_SIX_DOF * size.widest);
     out->stiffness = DMB_ARENA_DOUBLES(arena, size.count);
     out->mass = DMB_ARENA_DOUBLES(arena, size.count);
 }
@@ -98,113 +102,124 @@ static void add_scales(const dmb_linear *linear, const dmb_jointed_chains *links
     }
 }
 
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
+
+/* Offsets of blocks of the present sizes, without gaps. */
+static void place_blocks(const dmb_block_pattern *scene, dmb_jointed_chains *links)
+{
+    dmb_block_pattern *pattern = &links->pattern;
+    size_t *const diagonal = pattern->diagonal, *const upper = pattern->upper, *const lower = pattern->lower, at = 0;
+    *pattern = *scene;
+    pattern->diagonal = diagonal;
+    pattern->upper = upper;
+    pattern->lower = lower;
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const size_t n = links->size[pattern->order[k]];
+        if (n > links->widest) links->widest = (uint32_t)n;
+        diagonal[k] = at;
+        at += n * n;
+        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
+            const size_t count = n * links->size[pattern->order[pattern->later[e]]];
+            upper[e] = at;
+            lower[e] = at + count;
+            at += 2 * count;
+        }
+    }
+    pattern->values = at;
+}
+
+/* A part of a matrix by rows of node i and columns of node j. */
+typedef struct part_of_nodes {
+    const double *values;
+    size_t stride; /* from one row to the next */
+    uint32_t i, j;
+} part_of_nodes;
+
+/* half = X R_j */
+static void times_null_space(const dmb_linear *linear, const dmb_jointed_chains *links, const part_of_nodes *X)
+{
+    const dmb_scene *scene = &linear->scene;
+    const uint32_t rows = scene->layout.size[X->i], block = scene->node_block[X->j], width = links->size[block];
+    memset(links->half, 0, (size_t)rows * width * sizeof(double));
+    for (uint32_t c = 0; c < scene->layout.size[X->j]; c++) {
+        const uint32_t row = scene->layout.row[X->j] + c;
+        for (uint32_t e = linear->start[row]; e < linear->start[row + 1]; e++) {
+            const uint32_t m = links->place[linear->column[e]] - links->row[block];
+            for (uint32_t r = 0; r < rows; r++)
+                links->half[(size_t)width * r + m] += X->values[X->stride * r + c] * linear->value[e];
+        }
+    }
+}
+
+static int is_zero(const dmb_block_layout *layout, const part_of_nodes *X)
+{
+    for (uint32_t r = 0; r < layout->size[X->i]; r++)
+        for (uint32_t c = 0; c < layout->size[X->j]; c++)
+            if (X->values[X->stride * r + c] != 0.0) return 0;
+    return 1;
+}
+
+/* A_ij += R_i^T X R_j in the block of the two nodes. Most joints have no laws and loads, and most parts no damping. */
+static void add_block(const dmb_linear *linear, const dmb_jointed_chains *links, const part_of_nodes *X, double *A)
+{
+    const dmb_scene *scene = &linear->scene;
+    const uint32_t block = scene->node_block[X->i], width = links->size[scene->node_block[X->j]];
+    if (is_zero(&scene->layout, X)) return;
+    double *to = A + dmb_block_pattern_offset(&links->pattern, block, scene->node_block[X->j]);
+    times_null_space(linear, links, X);
+    for (uint32_t c = 0; c < scene->layout.size[X->i]; c++) {
+        const double *half = links->half + (size_t)width * c;
+        const uint32_t row = scene->layout.row[X->i] + c;
+        for (uint32_t e = linear->start[row]; e < linear->start[row + 1]; e++) {
+            const size_t m = links->place[linear->column[e]] - links->row[block];
+            for (uint32_t q = 0; q < width; q++) to[width * m + q] += linear->value[e] * half[q];
+        }
+    }
+}
+
+/* Nodes, and the elements between them. */
+static void add_nodes(const dmb_linear *linear, const dmb_jointed_chains *links, const dmb_linear_matrix *from,
+                      double *A)
+{
+    const dmb_scene *scene = &linear->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        if (!is_reduced(scene, i)) continue;
+        const part_of_nodes diagonal = {from->diagonal + layout->diag[i], layout->size[i], i, i};
+        add_block(linear, links, &diagonal, A);
+        if (scene->node_element[i] == DMB_NONE) continue;
+        const part_of_nodes upper = {from->upper + layout->link[i], layout->size[i + 1], i, i + 1};
+        const part_of_nodes lower = {from->lower + layout->link[i], layout->size[i], i + 1, i};
+        add_block(linear, links, &upper, A);
+        add_block(linear, links, &lower, A);
+    }
+}
+
+static void add_joints(const dmb_linear *linear, const dmb_jointed_chains *links, const double *joints, double *A)
+{
+    for (uint32_t i = 0; i < linear->scene.constraint_count; i++) {
+        const dmb_constraint *c = linear->scene.constraints + i;
+        for (uint32_t a = 0; a < c->node_count; a++)
+            for (uint32_t b = 0; b < c->node_count; b++) {
+                const size_t at = c->tangent + (size_t)c->column[a] * c->columns + c->column[b];
+                const part_of_nodes X = {joints + at, c->columns, c->node[a], c->node[b]};
+                add_block(linear, links, &X, A);
+            }
+    }
+}
+
 void dmb_jointed_chains_number(const dmb_linear *linear, dmb_jointed_chains_size size, dmb_jointed_chains *out)
 {
+    const dmb_linear_matrix *const all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
     out->count = size.count;
     if (linear->scene.cluster_count == 0) return;
     out->matrix.size = out->size;
     number(linear, out);
     add_scales(linear, out);
-}
-
-/* ---- Assembly ---------------------------------------------------------------------------------------------------- */
-
-/* half = X R_j, X: size of i x size of j, its rows `stride` apart */
-static void times_null_space(const dmb_dynamic_stiffness *s, uint32_t i, uint32_t j, dmb_complex_array X, size_t stride)
-{
-    const dmb_linear *linear = s->linear;
-    const dmb_scene *scene = &linear->scene;
-    const dmb_jointed_chains *links = &s->links;
-    const uint32_t rows = scene->layout.size[i], block = scene->node_block[j], width = links->size[block];
-    memset(links->half.re, 0, (size_t)rows * width * sizeof(double));
-    memset(links->half.im, 0, (size_t)rows * width * sizeof(double));
-    for (uint32_t c = 0; c < scene->layout.size[j]; c++) {
-        const uint32_t row = scene->layout.row[j] + c;
-        for (uint32_t e = linear->start[row]; e < linear->start[row + 1]; e++) {
-            const uint32_t m = links->place[linear->column[e]] - links->row[block];
-            for (uint32_t r = 0; r < rows; r++) {
-                links->half.re[(size_t)width * r + m] += X.re[stride * r + c] * linear->value[e];
-                links->half.im[(size_t)width * r + m] += X.im[stride * r + c] * linear->value[e];
-            }
-        }
-    }
-}
-
-/* A_ij += R_i^T X R_j, into the block of the two nodes at `offset`. */
-static void add_block(const dmb_dynamic_stiffness *s, uint32_t i, uint32_t j, dmb_complex_array X, size_t stride,
-                      size_t offset)
-{
-    const dmb_linear *linear = s->linear;
-    const dmb_scene *scene = &linear->scene;
-    const dmb_jointed_chains *links = &s->links;
-    const uint32_t block = scene->node_block[i], width = links->size[scene->node_block[j]];
-    times_null_space(s, i, j, X, stride);
-    for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
-        const double *re = links->half.re + (size_t)width * c, *im = links->half.im + (size_t)width * c;
-        const uint32_t row = scene->layout.row[i] + c;
-        for (uint32_t e = linear->start[row]; e < linear->start[row + 1]; e++) {
-            const size_t m = links->place[linear->column[e]] - links->row[block];
-            double *to_re = links->matrix.values.re + offset + width * m;
-            double *to_im = links->matrix.values.im + offset + width * m;
-            for (uint32_t q = 0; q < width; q++) to_re[q] += linear->value[e] * re[q];
-            for (uint32_t q = 0; q < width; q++) to_im[q] += linear->value[e] * im[q];
-        }
-    }
-}
-
-static dmb_complex_array part(dmb_complex_array array, size_t offset)
-{
-    const dmb_complex_array out = {array.re + offset, array.im + offset};
-    return out;
-}
-
-static size_t diagonal_of(const dmb_scene *scene, uint32_t node)
-{
-    return scene->pattern.diagonal[scene->pattern.position[scene->node_block[node]]];
-}
-
-/* Nodes, and the elements between them. */
-static void add_nodes(const dmb_dynamic_stiffness *s)
-{
-    const dmb_scene *scene = &s->linear->scene;
-    const dmb_block_layout *layout = &scene->layout;
-    for (uint32_t i = 0; i < layout->n; i++) {
-        if (!is_reduced(scene, i)) continue;
-        add_block(s, i, i, part(s->factors.diagonal, layout->diag[i]), layout->size[i], diagonal_of(scene, i));
-        if (scene->node_element[i] == DMB_NONE) continue;
-        const size_t *link = scene->off_diagonal_offset + 2 * (size_t)i, inside = diagonal_of(scene, i);
-        const int one = scene->node_block[i] == scene->node_block[i + 1];
-        add_block(s, i, i + 1, part(s->factors.upper, layout->link[i]), layout->size[i + 1], one ? inside : link[0]);
-        add_block(s, i + 1, i, part(s->factors.lower, layout->link[i]), layout->size[i], one ? inside : link[1]);
-    }
-}
-
-/* Terms of joint c between two of its nodes, both in one component. */
-static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t b)
-{
-    const dmb_scene *scene = &s->linear->scene;
-    const uint32_t rows = scene->layout.size[c->node[a]], columns = scene->layout.size[c->node[b]];
-    double re[DMB_NODE_SIX_DOF * DMB_NODE_SIX_DOF] = {0.0}, im[DMB_NODE_SIX_DOF * DMB_NODE_SIX_DOF] = {0.0};
-    const dmb_complex_array X = {re, im};
-    int acts = 0; /* most joints without laws and loads add nothing */
-    for (uint32_t r = 0; r < rows; r++)
-        for (uint32_t q = 0; q < columns; q++) {
-            const size_t at = c->tangent + (size_t)(c->column[a] + r) * c->columns + c->column[b] + q;
-            const dmb_complex_number x = dmb_dynamic_entry(s, s->linear->mass.joints[at], s->linear->damping.joints[at],
-                                                           s->linear->stiffness.joints[at]);
-            re[columns * r + q] = x.re;
-            im[columns * r + q] = x.im;
-            acts |= x.re != 0.0 || x.im != 0.0;
-        }
-    if (acts) add_block(s, c->node[a], c->node[b], X, columns, diagonal_of(scene, c->node[a]));
-}
-
-static void add_joints(const dmb_dynamic_stiffness *s)
-{
-    for (uint32_t i = 0; i < s->linear->scene.constraint_count; i++) {
-        const dmb_constraint *c = s->linear->scene.constraints + i;
-        for (uint32_t a = 0; a < c->node_count; a++)
-            for (uint32_t b = 0; b < c->node_count; b++) add_joint(s, c, a, b);
+    place_blocks(&linear->scene.pattern, out);
+    for (int m = 0; m < 3; m++) {
+        add_nodes(linear, out, all[m], out->blocks[m]);
+        add_joints(linear, out, all[m]->joints, out->blocks[m]);
     }
 }
 
@@ -220,8 +235,8 @@ static uint32_t node_of_place(const dmb_dynamic_stiffness *s, uint32_t place)
 /* First coordinate whose pivot is of rounding size, or -1. */
 static int64_t unconstrained_place(const dmb_dynamic_stiffness *s)
 {
-    const dmb_block_pattern *pattern = &s->linear->scene.pattern;
     const dmb_jointed_chains *links = &s->links;
+    const dmb_block_pattern *pattern = &links->pattern;
     for (uint32_t b = 0; b < pattern->n; b++)
         for (uint32_t i = 0; i < links->size[b]; i++) {
             const size_t at = pattern->diagonal[pattern->position[b]] + (links->size[b] + (size_t)1) * i;
@@ -235,10 +250,9 @@ static int64_t unconstrained_place(const dmb_dynamic_stiffness *s)
 
 int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *s)
 {
-    const dmb_block_pattern *pattern = &s->linear->scene.pattern;
-    dmb_complex_sparse_clear(pattern, &s->links.matrix);
-    add_nodes(s);
-    add_joints(s);
+    const dmb_block_pattern *pattern = &s->links.pattern;
+    double *const *blocks = s->links.blocks;
+    dmb_dynamic_assemble(s, pattern->values, blocks[0], blocks[1], blocks[2], s->links.matrix.values);
     const int64_t bad = dmb_complex_sparse_factor(pattern, &s->links.matrix);
     if (bad >= 0) return node_of_place(s, s->links.row[bad]);
     const int64_t loose = unconstrained_place(s);
@@ -269,14 +283,25 @@ static void expand_rows(const dmb_dynamic_stiffness *s, uint32_t begin, uint32_t
     }
 }
 
-void dmb_jointed_chains_solve(dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_jointed_chains_restrict(const dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const dmb_scene *scene = &s->linear->scene;
     memset(s->links.solution.re, 0, s->links.count * sizeof(double));
     memset(s->links.solution.im, 0, s->links.count * sizeof(double));
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (is_reduced(scene, i)) restrict_rows(s, scene->layout.row[i], scene->layout.row[i + 1], x);
-    dmb_complex_sparse_solve(&scene->pattern, &s->links.matrix, s->links.row, s->links.solution);
+}
+
+void dmb_jointed_chains_expand(const dmb_dynamic_stiffness *s, dmb_complex_array x)
+{
+    const dmb_scene *scene = &s->linear->scene;
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (is_reduced(scene, i)) expand_rows(s, scene->layout.row[i], scene->layout.row[i + 1], x);
+}
+
+void dmb_jointed_chains_solve(dmb_dynamic_stiffness *s, dmb_complex_array x)
+{
+    dmb_jointed_chains_restrict(s, x);
+    dmb_complex_sparse_solve(&s->links.pattern, &s->links.matrix, s->links.row, s->links.solution);
+    dmb_jointed_chains_expand(s, x);
 }

@@ -8,16 +8,26 @@
 /* Numbers of a right-hand side or a block at all frequencies, real and imaginary parts. */
 enum { NUMBERS = 2 * DMB_FREQUENCIES };
 
-int32_t dmb_dynamic_group_suits(const dmb_dynamic_stiffness *stiffness)
+/* Largest number of values of a chain without joints. */
+static size_t largest_chain(const dmb_scene *scene)
 {
-    return stiffness->linear->scene.cluster_count == 0;
+    size_t most = 0;
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        const size_t end = scene->layout.link[chain->first + chain->count - 1];
+        if (!chain->jointed && end - scene->layout.link[chain->first] > most)
+            most = end - scene->layout.link[chain->first];
+    }
+    return most;
 }
 
 static void lay_out(dmb_arena *arena, const dmb_dynamic_stiffness *stiffness, dmb_dynamic_group *out)
 {
-    const dmb_block_layout *layout = &stiffness->linear->scene.layout;
-    out->sides = DMB_ARENA_DOUBLES(arena, (size_t)NUMBERS * out->columns * stiffness->linear->rows);
-    out->work = DMB_ARENA_DOUBLES(arena, (size_t)NUMBERS * layout->link[layout->n - 1]);
+    const dmb_jointed_chains *links = &stiffness->links;
+    const size_t chain = largest_chain(&stiffness->linear->scene), jointed = links->pattern.values + links->widest;
+    out->sides =
+        DMB_ARENA_DOUBLES(arena, (size_t)NUMBERS * out->columns * ((size_t)stiffness->linear->rows + links->count));
+    out->work = DMB_ARENA_DOUBLES(arena, NUMBERS * (chain > jointed ? chain : jointed));
 }
 
 int32_t dmb_dynamic_group_make(dmb_dynamic_stiffness *stiffness, uint32_t columns, dmb_dynamic_group *out)
@@ -55,23 +65,73 @@ static void go_to(dmb_dynamic_group *group, uint32_t frequency)
     group->stiffness->omega = group->omega[frequency];
 }
 
+/* One right-hand side or solution of a frequency, between the sides of the group and arrays. */
+static void copy_to(const dmb_dynamic_group *group, uint32_t frequency, uint32_t column, uint32_t row, uint32_t count,
+                    dmb_complex_array from)
+{
+    for (uint32_t r = 0; r < count; r++) {
+        double *to = number(group, row + r, column, frequency);
+        to[0] = from.re[r];
+        to[DMB_FREQUENCIES] = from.im[r];
+    }
+}
+
+static void copy_from(const dmb_dynamic_group *group, uint32_t frequency, uint32_t column, uint32_t row, uint32_t count,
+                      dmb_complex_array to)
+{
+    for (uint32_t r = 0; r < count; r++) {
+        const double *from = number(group, row + r, column, frequency);
+        to.re[r] = from[0];
+        to.im[r] = from[DMB_FREQUENCIES];
+    }
+}
+
 void dmb_dynamic_group_put(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x)
 {
-    const dmb_scene *scene = &group->stiffness->linear->scene;
+    dmb_dynamic_stiffness *s = group->stiffness;
+    const dmb_scene *scene = &s->linear->scene;
     go_to(group, frequency);
-    if (moves) dmb_dynamic_set_prescribed(group->stiffness, x);
-    for (uint32_t r = 0; r < scene->row_count; r++) {
-        double *to = number(group, r, column, frequency);
-        to[0] = scene->solved_row[r] ? x.re[r] : 0.0;
-        to[DMB_FREQUENCIES] = scene->solved_row[r] ? x.im[r] : 0.0;
-    }
+    if (moves) dmb_dynamic_set_prescribed(s, x);
+    for (uint32_t r = 0; r < scene->row_count; r++)
+        if (!scene->solved_row[r]) x.re[r] = x.im[r] = 0.0;
+    copy_to(group, frequency, column, 0, s->linear->rows, x);
+    if (scene->cluster_count == 0) return;
+    dmb_jointed_chains_restrict(s, x);
+    copy_to(group, frequency, column, s->linear->rows, s->links.count, s->links.solution);
 }
 
 static dmb_response_blocks blocks(const double *mass, const double *damping, const double *stiffness)
 {
     const dmb_response_blocks all = {mass, damping, stiffness};
     return all;
+}
+
+static void set_frequencies(const dmb_dynamic_group *group, double omega[DMB_FREQUENCIES])
+{
+    for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) omega[l] = group->omega[l < group->used ? l : group->used - 1];
+}
+
+/* Jointed chains. */
+static uint32_t solve_jointed(const dmb_dynamic_group *group, uint32_t columns)
+{
+    const dmb_dynamic_stiffness *s = group->stiffness;
+    const dmb_jointed_chains *links = &s->links;
+    dmb_jointed_response_args args = {.used = group->used,
+                                      .columns = columns,
+                                      .stride = group->columns,
+                                      .pattern = &links->pattern,
+                                      .size = links->size,
+                                      .row = links->row,
+                                      .blocks = blocks(links->blocks[0], links->blocks[1], links->blocks[2]),
+                                      .stiffness = links->stiffness,
+                                      .mass = links->mass,
+                                      .structural_damping = s->structural_damping,
+                                      .sides = number(group, s->linear->rows, 0, 0),
+                                      .work = group->work};
+    set_frequencies(group, args.omega);
+    s->linear->scene.kernels->jointed_responses(&args);
+    return args.bad;
 }
 
 uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
@@ -90,9 +150,10 @@ uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
                               .structural_damping = group->stiffness->structural_damping,
                               .sides = group->sides,
                               .work = group->work};
-    uint32_t bad = 0;
-    for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) args.omega[l] = group->omega[l < group->used ? l : group->used - 1];
+    uint32_t bad = scene->cluster_count > 0 ? solve_jointed(group, columns) : 0;
+    set_frequencies(group, args.omega);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
+        if (scene->chains[c].jointed) continue;
         args.first = scene->chains[c].first;
         args.count = scene->chains[c].count;
         scene->kernels->responses(&args);
@@ -104,10 +165,15 @@ uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
 void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x)
 {
+    dmb_dynamic_stiffness *s = group->stiffness;
+    const size_t bytes = s->linear->rows * sizeof(double);
     go_to(group, frequency);
-    for (uint32_t r = 0; r < group->stiffness->linear->rows; r++) {
-        const double *from = number(group, r, column, frequency);
-        x.re[r] = moves ? from[0] + x.re[r] : from[0];
-        x.im[r] = moves ? from[DMB_FREQUENCIES] + x.im[r] : from[DMB_FREQUENCIES];
+    memcpy(s->told.re, x.re, bytes);
+    memcpy(s->told.im, x.im, bytes);
+    copy_from(group, frequency, column, 0, s->linear->rows, x);
+    if (s->linear->scene.cluster_count > 0) {
+        copy_from(group, frequency, column, s->linear->rows, s->links.count, s->links.solution);
+        dmb_jointed_chains_expand(s, x);
     }
+    if (moves) dmb_dynamic_add_prescribed(s, x);
 }

@@ -318,12 +318,15 @@ typedef struct dmb_complex_number {
 
 /* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
 typedef struct dmb_jointed_chains {
-    uint32_t count;       /* number of coordinates; also 0 if joints leave none */
-    uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
-    uint32_t *place;      /* of coordinate i of the linear system among them; DMB_NONE: none */
+    uint32_t count;            /* number of coordinates; also 0 if joints leave none */
+    uint32_t widest;           /* the most coordinates of a block */
+    uint32_t *size, *row;      /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
+    uint32_t *place;           /* of coordinate i of the linear system among them; DMB_NONE: none */
+    dmb_block_pattern pattern; /* the scene's, with offsets of blocks of these sizes, without gaps */
+    double *blocks[3];         /* R^T M R, R^T C R and R^T K R, shape (values of the pattern) */
     dmb_complex_sparse matrix;
     dmb_complex_array solution;   /* shape (count) */
-    dmb_complex_array half;       /* A_ij R_j, shape (6, the widest block) */
+    double *half;                 /* A_ij R_j, shape (6, the widest block) */
     dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
     double *rest;                 /* forces that constraints balance, shape (2, the most rows of a cluster) */
     double *stiffness, *mass;     /* scales of pivots: diagonals of R^T |K| R and R^T |M| R, shape (count) */
@@ -334,7 +337,7 @@ typedef struct dmb_dynamic_stiffness {
     double structural_damping;        /* [-] eta */
     double omega;                     /* [rad/s] of the present factors */
     double growth;                    /* [1/s] likewise; 0 of a response */
-    dmb_complex_block_matrix factors; /* of chains without joints; the blocks of A of the others */
+    dmb_complex_block_matrix factors; /* of chains without joints */
     dmb_complex_array told;           /* p, shape (rows) */
     dmb_jointed_chains links;
     void *block;
@@ -356,21 +359,24 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves
 /* Stores displacements p prescribed by drives, and replaces x by the forces -A p, at growth and omega of `stiffness`.
  */
 void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+/* x += p as stored last. */
+void dmb_dynamic_add_prescribed(const dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+/* Entries of A at the present frequency from those of M, C and K. */
+void dmb_dynamic_assemble(const dmb_dynamic_stiffness *stiffness, size_t count, const double *M, const double *C,
+                          const double *K, dmb_complex_array A);
 
-/* Responses at up to DMB_FREQUENCIES frequencies in lanes (eq:response.direct), in scenes without joints; same bits as
- * one frequency at a time. */
+/* Responses at up to DMB_FREQUENCIES frequencies in lanes (eq:response.direct); same bits as one frequency at a time.
+ * Right-hand sides of jointed chains are in independent coordinates, behind those of all rows. */
 typedef struct dmb_dynamic_group {
     dmb_dynamic_stiffness *stiffness;
     uint32_t columns;              /* capacity for right-hand sides of each frequency */
     uint32_t used;                 /* frequencies */
     double omega[DMB_FREQUENCIES]; /* [rad/s] */
-    double *sides, *work;          /* as in dmb_response_args */
+    double *sides, *work;          /* as in dmb_response_args; work also of dmb_jointed_response_args */
     void *block;
     size_t block_size;
 } dmb_dynamic_group;
 
-/* 1 if the scene permits this method. */
-int32_t dmb_dynamic_group_suits(const dmb_dynamic_stiffness *stiffness);
 /* DMB_OK or DMB_ERR_NO_MEMORY; release gives the memory back and takes a struct of zeros too. */
 int32_t dmb_dynamic_group_make(dmb_dynamic_stiffness *stiffness, uint32_t columns, dmb_dynamic_group *out);
 void dmb_dynamic_group_release(dmb_dynamic_group *group);
@@ -418,10 +424,13 @@ typedef struct dmb_jointed_chains_size {
 dmb_jointed_chains_size dmb_jointed_chains_sizes(const dmb_linear *linear);
 void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size size,
                                 dmb_jointed_chains *out);
-/* Numbers the coordinates; `size` as laid out with. */
+/* Numbers the coordinates and computes the blocks; `size` as laid out with. */
 void dmb_jointed_chains_number(const dmb_linear *linear, dmb_jointed_chains_size size, dmb_jointed_chains *out);
-/* Factorises from the blocks of A. Returns an unconstrained node, or -1. */
+/* Factorises at the present frequency. Returns an unconstrained node, or -1. */
 int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *stiffness);
+/* Rows of jointed chains: solution = R^T x, and x = R solution. */
+void dmb_jointed_chains_restrict(const dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+void dmb_jointed_chains_expand(const dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 /* Rows of jointed chains of x: forces in, displacements out. */
 void dmb_jointed_chains_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 

@@ -157,7 +157,7 @@ static int32_t solve_group(dmb_response_work *w, dmb_response *response, const d
 
 int32_t dmb_response_solve(dmb_response_work *w, dmb_response *response, const dmb_response_points *points)
 {
-    if (w->group.columns > 0 && points->count > 1) return solve_group(w, response, points);
+    if (points->count > 1) return solve_group(w, response, points);
     for (uint32_t l = 0; l < points->count; l++) {
         const int32_t told = dmb_progress_pulse(w->sim);
         const int32_t status = told < 0 ? told : solve_alone(w, response, points->point[l]);

@@ -83,7 +83,8 @@ static void fill_block(sparse_system *s, random_stream *r, uint32_t i, uint32_t 
 static void fill(sparse_system *s, random_stream *r, uint32_t turn, lapack_complex_double *A)
 {
     memset(A, 0, sizeof *A * s->rows * s->rows);
-    dmb_complex_sparse_clear(&s->pattern, &s->matrix);
+    memset(s->re, 0, s->pattern.values * sizeof(double));
+    memset(s->im, 0, s->pattern.values * sizeof(double));
     for (uint32_t i = 0; i < s->n; i++) fill_block(s, r, i, i, turn, A);
     for (uint32_t e = 0; e < s->edges; e++) {
         if (s->edge[e].a == s->edge[e].b) continue;
