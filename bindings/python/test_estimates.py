@@ -71,6 +71,8 @@ CASES = (("linear, 2", linear(2.0), 2, norm.cdf(-2.0), 2000), ("linear, 50", lin
          ("four branches", four_branches, 2, FOUR, 8000), ("oscillator", Oscillator(1.8), 100, norm.cdf(-1.8), 1000))
 RARE = (("linear, 2", linear(4.0), 2, norm.cdf(-4.0)), ("four branches", four_branches, 2, FOUR),
         ("oscillator", Oscillator(3.7), 100, norm.cdf(-3.7)))
+THOUSANDTH = (("linear, 2", linear(3.09), 2, norm.cdf(-3.09)), ("linear, 50", linear(3.09), 50, norm.cdf(-3.09)),
+              ("oscillator", Oscillator(3.09), 100, norm.cdf(-3.09)))
 
 
 class FormTest(unittest.TestCase):
@@ -164,6 +166,16 @@ class IntervalTest(unittest.TestCase):
             self.inside(f"subset, {name}", known, found)
             mean = np.mean([one[0].probability for one in found])
             self.assertLess(abs(mean / known - 1.0), 0.25, name)
+
+    def test_subset_of_a_thousandth(self):
+        """1000 samples a level: the number of runs and the relative standard error that the theory manual states."""
+        for name, margin, dimension, known in THOUSANDTH:
+            found = [Subset(seed, dimension, 100).run(margin) for seed in range(30)]
+            values = np.array([one.probability for one in found])
+            self.assertLess(max(one.samples for one in found), 3900, name)
+            self.assertLess(np.mean([one.samples for one in found]), 3400, name)
+            self.assertLess(values.std() / known, 0.36, name)
+            self.assertGreaterEqual(sum(one.low <= known <= one.high for one in found), 26, name)
 
     def test_subset_that_never_fails(self):
         found = Subset(1, 2, 50, replicates=3, levels=3).run(lambda numbers, z: np.full(len(z), 1.0))
