@@ -62,18 +62,6 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-void dmb_dynamic_assemble(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
-                          const double *restrict C, const double *restrict K, dmb_complex_array A)
-{
-    double *restrict re = A.re, *restrict im = A.im;
-    const double w = s->omega, w2 = w * w, eta = s->structural_damping, g = s->growth;
-    for (size_t i = 0; i < count; i++) re[i] = K[i] - w2 * M[i];
-    for (size_t i = 0; i < count; i++) im[i] = w * C[i] + eta * K[i];
-    if (g == 0.0) return;
-    for (size_t i = 0; i < count; i++) re[i] += g * (C[i] + g * M[i]);
-    for (size_t i = 0; i < count; i++) im[i] += 2.0 * g * w * M[i];
-}
-
 static dmb_complex_array part(dmb_complex_array array, size_t offset)
 {
     const dmb_complex_array out = {array.re + offset, array.im + offset};

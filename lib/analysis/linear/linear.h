@@ -362,8 +362,17 @@ void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *stiffness, dmb_complex_ar
 /* x += p as stored last. */
 void dmb_dynamic_add_prescribed(const dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 /* Entries of A at the present frequency from those of M, C and K. */
-void dmb_dynamic_assemble(const dmb_dynamic_stiffness *stiffness, size_t count, const double *M, const double *C,
-                          const double *K, dmb_complex_array A);
+static inline void dmb_dynamic_assemble(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
+                                        const double *restrict C, const double *restrict K, dmb_complex_array A)
+{
+    double *restrict re = A.re, *restrict im = A.im;
+    const double w = s->omega, w2 = w * w, eta = s->structural_damping, g = s->growth;
+    for (size_t i = 0; i < count; i++) re[i] = K[i] - w2 * M[i];
+    for (size_t i = 0; i < count; i++) im[i] = w * C[i] + eta * K[i];
+    if (g == 0.0) return;
+    for (size_t i = 0; i < count; i++) re[i] += g * (C[i] + g * M[i]);
+    for (size_t i = 0; i < count; i++) im[i] += 2.0 * g * w * M[i];
+}
 
 /* Responses at up to DMB_FREQUENCIES frequencies in lanes (eq:response.direct); same bits as one frequency at a time.
  * Right-hand sides of jointed chains are in independent coordinates, behind those of all rows. */
