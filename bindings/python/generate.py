@@ -223,9 +223,10 @@ def texts_of(names, text):
     defaults = last.removeprefix("default ").split(", ") if last.startswith("default ") else []
     if not defaults:
         said.append(last)
-    if len(names) == 1 or len(said) != len(names) or (defaults and len(defaults) != len(names)):
+    own = [name for name in names if is_plain(name)]
+    if len(own) == 1 or len(said) != len(own) or (defaults and len(defaults) != len(own)):
         return shared
-    return {name: f"{one}; default {defaults[i]}" if defaults else one for i, (name, one) in enumerate(zip(names, said))}
+    return {**shared, **{name: f"{one}; default {defaults[i]}" if defaults else one for i, (name, one) in enumerate(zip(own, said))}}
 
 
 def split_by_prefix(members):

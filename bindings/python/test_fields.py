@@ -155,7 +155,8 @@ class Fields(unittest.TestCase):
     def test_comments_of_several_members(self):
         for names, text, wanted in ((["a", "b"], "one; two; default 1, 2", ["one; default 1", "two; default 2"]),
                                     (["a", "b"], "of both; default 1", ["of both; default 1"] * 2),
-                                    (["a", "b"], "X_...; Y_...", ["X_...", "Y_..."]), (["a"], "one; two", ["one; two"])):
+                                    (["a", "b"], "X_...; Y_...", ["X_...", "Y_..."]), (["a"], "one; two", ["one; two"]),
+                                    (["a", "reserved"], "one; two", ["one; two"] * 2), (["struct_size", "a", "b"], "one; two", ["one; two", "one", "two"])):
             self.assertEqual(list(generate.texts_of(names, text).values()), wanted)
 
     def test_defaults_that_are_read(self):

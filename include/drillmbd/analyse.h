@@ -28,7 +28,7 @@ typedef struct dmb_static_options {
     uint32_t struct_size, max_iterations; /* [-] of one load step, 1 .. 10000; default 60 */
     double tolerance; /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
     double slip_axial, slip_rotation; /* [m/s; rad/s] friction acts as if the string slid along the hole and turned at these
-        speeds; both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its
+        speeds, both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its
         accelerations are 0 and section forces contain neither inertia nor damping */
     uint32_t load_steps; /* [-] equal steps from no load to full load, <= 10000, before the library chooses them itself; 0
         (default): the whole load at once */
@@ -94,7 +94,7 @@ typedef struct dmb_buckling_options {
         1e-10 */
     double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): moves the string by a millionth
         of an element */
-    double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
+    double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options, the stiffness is unsymmetric then */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
 /* Reason for the end of the way along the equilibria. */
@@ -203,7 +203,7 @@ typedef struct dmb_path_report {
     uint32_t limits, bifurcations; /* [-] limit points passed; bifurcations passed or left at */
     uint32_t iterations, cuts; /* [-] in all; steps that were halved */
     double factor, displacement; /* [unit of the factor; m] at the end */
-    double first_limit, first_bifurcation; /* [unit of the factor] at the first limit point, the first bifurcation; NaN: none */
+    double first_limit, first_bifurcation; /* [unit of the factor] at the first limit point, the first bifurcation, NaN: none */
 } dmb_path_report;
 DMB_SIZED_STRUCT(dmb_path_report)
 /* Follows the path from the present static state on by arc length (eq:buckling.arc). Limit points, bifurcations and the ends are
@@ -747,8 +747,8 @@ typedef struct dmb_torque_drag_row {
     uint32_t struct_size;
     int32_t locked; /* 1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN */
     double depth; /* [m] measured depth of the far end */
-    double hook_load, torque; /* [N; N m] at the rig end: effective axial force, > 0: it pulls, < 0: it pushes; against friction
-        and bit */
+    double hook_load, torque; /* [N; N m] effective axial force at the rig end, > 0: it pulls, < 0: it pushes; at the rig end,
+        against friction and bit */
     double transfer; /* [-] share of a little more push at the rig that arrives at the bit; 1 without friction */
     double lowest_force, lowest_at; /* [N; m] least effective axial force, most compressed where < 0; measured depth where */
     double sinusoidal_share; /* [-] largest share of the sinusoidal buckling load, as of a profile; NaN without wall force */
@@ -791,7 +791,7 @@ typedef struct dmb_hydraulics {
     double pump_pressure; /* [Pa] sum of the three and of the difference of the columns; motors are left out */
     double circulating_density; /* [kg/m3] fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0 */
     double trip_pressure; /* [Pa] of the closed string at the trip speed, more going in, less coming out */
-    double surge_density, swab_density; /* [kg/m3] fluid_density +, - trip_pressure/(g vertical_depth); NaN if that is <= 0 */
+    double surge_density, swab_density; /* [kg/m3] fluid_density +, - trip_pressure/(g vertical_depth), NaN if that is <= 0 */
     double reynolds; /* [-] largest of bore, annulus and trip */
 } dmb_hydraulics;
 DMB_SIZED_STRUCT(dmb_hydraulics)
@@ -819,7 +819,7 @@ typedef struct dmb_fatigue_options {
 DMB_SIZED_STRUCT(dmb_fatigue_options)
 typedef struct dmb_fatigue_result {
     uint32_t struct_size, point; /* [-] the point of the section with the largest damage, or else the largest range */
-    uint64_t samples, clipped; /* [-]; of them beyond stress_range, at any point: cycles wholly beyond it are missed */
+    uint64_t samples, clipped; /* [-] taken; of them beyond stress_range, at any point: cycles wholly beyond it are missed */
     double damage; /* [-] 1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a
         cycle reaches tensile_strength: the section breaks at once */
     double cycles, largest_range; /* [-; Pa] at that point, halves included; largest range of them */

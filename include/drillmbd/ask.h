@@ -73,7 +73,7 @@ DMB_API int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32
 typedef struct dmb_energy {
     uint32_t struct_size;
     int32_t reserved;
-    double kinetic, strain; /* [J] now; strain of flexible pipes, springs and stops of joints */
+    double kinetic, strain; /* [J] now; now, of flexible pipes, springs and stops of joints */
     double gravity, contact; /* [J] now; gravity 0 at time 0 as described; contact stored in the wall's stiffness */
     double drives; /* [J] work put in by all drives since the start */
     double loads; /* [J] work of described loads, the bottom-hole load, the caller's constraints that move */
@@ -261,7 +261,7 @@ typedef struct dmb_profile {
     const int32_t *quantities; /* DMB_PROFILE_..., shape (quantity_count) */
     uint32_t quantity_count, reserved; /* [-] 1 .. the number of them; repetitions allowed */
     double *values; /* the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride] */
-    uint64_t station_stride, quantity_stride; /* [-] in doubles; both 0 (default): quantity_count and 1 */
+    uint64_t station_stride, quantity_stride; /* [-] in doubles, both 0 (default): quantity_count and 1 */
 } dmb_profile;
 DMB_SIZED_STRUCT(dmb_profile)
 /* Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that
@@ -481,7 +481,7 @@ typedef struct dmb_window_result {
     uint32_t struct_size, reserved;
     uint64_t samples; /* [-] in the window */
     double time; /* [s] that it spans; 0 with one sample: means are the sample then */
-    double minimum, maximum; /* [unit of the output] of the samples; NaN, as all that follow, without one */
+    double minimum, maximum; /* [unit of the output] of the samples, NaN, as all that follow, without one */
     double mean, rms; /* [unit of the output] over time; root of the mean of the squares over time */
     double index; /* [-] (maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0
         where nothing varies, infinite about a mean of 0 */

@@ -166,10 +166,10 @@ DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
 typedef struct dmb_error {
     uint32_t struct_size;
     int32_t status; /* DMB_ERR_...; 0: no call of this thread has failed */
-    uint32_t number, component; /* [-] of the part among those of its kind, of a field that is an array; DMB_NONE: it has none */
+    uint32_t number, component; /* [-] of the part among those of its kind, of a field that is an array (DMB_NONE: it has none) */
     double value, low, high; /* [unit of the field] refused value and its range; NaN: no number, no range */
     char part[128]; /* "string 0 (main), pipe 12 (collars)", as in the message; all texts end with 0 */
-    char kind[32], name[24]; /* "pipe", "collars": of the innermost part; "" as all that a failure does not have */
+    char kind[32], name[24]; /* "pipe", "collars": of the innermost part ("" as all that a failure does not have) */
     char field[64]; /* "outer_diameter" */
     char given[96]; /* the value as text: "0.07", "(1, 2, 3)" */
     char bound[256]; /* "be finite and > inner_diameter (0.08)"; a bound after > or < is not in the range */

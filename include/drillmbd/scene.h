@@ -185,7 +185,7 @@ enum {
 typedef struct dmb_friction_at {
     double normal_force; /* [N] >= 0 */
     double slip[2], slip_before[2]; /* [m/s] of the pipe over the wall; at the last accepted time */
-    double mu_static, mu_dynamic; /* [-] of the wall or section, times inputs; a law may leave them aside */
+    double mu_static, mu_dynamic; /* [-] of the wall or section, times inputs, which a law may leave aside */
 } dmb_friction_at;
 /* The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by slip and
  * normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the point and 0 whenever
@@ -538,7 +538,7 @@ typedef struct dmb_drive_def {
      * commanded, and on one that opens it stays as it is until the joint closes. */
     double delay, force_rate; /* [s; N/s, N m/s] from command to force, 0 or 1e-6 .. 1e4; its largest rate, > 0; 0: jumps */
     double lag; /* [s] time constant of the force, 0 or >= 1e-6 */
-    double drag, back_drag; /* [N s/m, N m s] of the actuator at speeds > 0, and < 0 (back-spin); >= 0 */
+    double drag, back_drag; /* [N s/m, N m s] >= 0, of the actuator at speeds > 0; >= 0, at speeds < 0 (back-spin) */
     double inertia; /* [kg m2] >= 0 of rotor and gear, turning with the component, RX of a string or a body; of MOTION too */
     uint32_t curve_count; /* [-] points of the torque-speed curve: 0 (none) or 2 .. 8 */
     int32_t reserved2;
@@ -579,7 +579,7 @@ typedef struct dmb_spring_def {
     int32_t acts; /* DMB_SPRING_...: TENSION (rope) only pulls, COMPRESSION (buffer) only pushes; the damper acts as long as their
         sum does so; default DMB_SPRING_BOTH */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
-    dmb_place place_a, place_b; /* part {0, 0} (default): the ground; not both */
+    dmb_place place_a, place_b; /* part {0, 0} (default): the ground, not both */
     double offset_a[3], offset_b[3]; /* [m] of the points from their places in their axes; ground: world; default 0 */
     double free_length; /* [m] >= 0; DMB_NOT_GIVEN (default): the length at time 0 as described, > 0 */
     double stiffness, damping; /* [N/m; N s/m] >= 0; the damping not there without DMB_FEATURE_DAMPING; default 0 */
@@ -661,7 +661,7 @@ typedef struct dmb_motor {
     double flow; /* [m3/s] through the motor, > 0 */
     double pressure; /* [Pa] drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure */
     double efficiency; /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
-    double table_flow, table_pressure; /* [m3/s; Pa] of the table, > 0; 0 (default): flow, pressure */
+    double table_flow, table_pressure; /* [m3/s; Pa] of the table, > 0, or 0 (default): flow, pressure */
     uint32_t table_count, reserved; /* [-] 0 (default): a line; 2 .. 15: a table, without stall_torque and displacement */
     double table_speed[15]; /* [rad/s] strictly increasing from 0, shape (table_count) */
     double table_torque[15]; /* [N m] >= 0, > 0 at the first, 0 at the last, shape (table_count) */

@@ -123,14 +123,14 @@ class ErrorStruct(Sized):
     ]
     field_docs = {
         "status": ("", "ERR_...; 0: no call of this thread has failed"),
-        "number": ("-", "of the part among those of its kind, of a field that is an array"),
-        "component": ("-", "NONE: it has none"),
+        "number": ("-", "of the part among those of its kind, of a field that is an array (NONE: it has none)"),
+        "component": ("-", "of the part among those of its kind, of a field that is an array (NONE: it has none)"),
         "value": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "low": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "high": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "part": ("", "\"string 0 (main), pipe 12 (collars)\", as in the message; all texts end with 0"),
-        "kind": ("", "\"pipe\", \"collars\": of the innermost part"),
-        "name": ("", "\"\" as all that a failure does not have"),
+        "kind": ("", "\"pipe\", \"collars\": of the innermost part (\"\" as all that a failure does not have)"),
+        "name": ("", "\"pipe\", \"collars\": of the innermost part (\"\" as all that a failure does not have)"),
         "field": ("", "\"outer_diameter\""),
         "given": ("", "the value as text: \"0.07\", \"(1, 2, 3)\""),
         "bound": ("", "\"be finite and > inner_diameter (0.08)\"; a bound after > or < is not in the range"),
@@ -227,8 +227,8 @@ class FrictionAt(Record):
         "normal_force": ("N", ">= 0"),
         "slip": ("m/s", "of the pipe over the wall"),
         "slip_before": ("m/s", "at the last accepted time"),
-        "mu_static": ("-", "of the wall or section, times inputs"),
-        "mu_dynamic": ("-", "a law may leave them aside"),
+        "mu_static": ("-", "of the wall or section, times inputs, which a law may leave aside"),
+        "mu_dynamic": ("-", "of the wall or section, times inputs, which a law may leave aside"),
     }
 
 
@@ -355,9 +355,9 @@ class Motor(MotorPart, Sized):
         "flow": ("m3/s", "through the motor, > 0"),
         "pressure": ("Pa", "drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure"),
         "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
-        "table_flow": ("m3/s", "of the table, > 0"),
-        "table_pressure": ("Pa", "0 (default): flow, pressure"),
-        "table_count": ("-", "0 (default): a line"),
+        "table_flow": ("m3/s", "of the table, > 0, or 0 (default): flow, pressure"),
+        "table_pressure": ("Pa", "of the table, > 0, or 0 (default): flow, pressure"),
+        "table_count": ("-", "0 (default): a line; 2 .. 15: a table, without stall_torque and displacement"),
         "table_speed": ("rad/s", "strictly increasing from 0, shape (table_count)"),
         "table_torque": ("N m", ">= 0, > 0 at the first, 0 at the last, shape (table_count)"),
     }
@@ -692,7 +692,7 @@ class Energy(Sized):
     ]
     field_docs = {
         "kinetic": ("J", "now"),
-        "strain": ("J", "strain of flexible pipes, springs and stops of joints"),
+        "strain": ("J", "now, of flexible pipes, springs and stops of joints"),
         "gravity": ("J", "now; gravity 0 at time 0 as described; contact stored in the wall's stiffness"),
         "contact": ("J", "now; gravity 0 at time 0 as described; contact stored in the wall's stiffness"),
         "drives": ("J", "work put in by all drives since the start"),
@@ -808,8 +808,8 @@ class JointState(Sized):
     field_docs = {
         "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; none for frame a (ERR_VALUE)"),
         "state": ("", "JOINT_..."),
-        "constraint_rows": ("-", "equations it holds now; of them dropped because others imply them"),
-        "redundant": ("-", "equations it holds now; of them dropped because others imply them"),
+        "constraint_rows": ("-", "equations it holds now"),
+        "redundant": ("-", "of them dropped because others imply them"),
         "position": ("m, rad", "coordinates, RX and RY over full turns, and their rates"),
         "speed": ("m/s, rad/s", "coordinates, RX and RY over full turns, and their rates"),
         "acceleration": ("m/s2, rad/s2", "the rates of those"),
@@ -972,7 +972,7 @@ class HolePoint(Sized):
         "mu_static": ("-", ""),
         "mu_dynamic": ("-", ""),
         "strength": ("Pa", "of a section; 0: not given"),
-        "section": ("", "number of the last section that begins at or above the depth"),
+        "section": ("", "number of the last section that begins at or above the depth; NONE: none"),
         "section_name": ("", "of that section, ends with 0; \"\" without one"),
     }
 
@@ -1148,8 +1148,8 @@ class WindowResult(Sized):
     field_docs = {
         "samples": ("-", "in the window"),
         "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
-        "minimum": ("unit of the output", "of the samples"),
-        "maximum": ("unit of the output", "NaN, as all that follow, without one"),
+        "minimum": ("unit of the output", "of the samples, NaN, as all that follow, without one"),
+        "maximum": ("unit of the output", "of the samples, NaN, as all that follow, without one"),
         "mean": ("unit of the output", "over time"),
         "rms": ("unit of the output", "root of the mean of the squares over time"),
         "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
@@ -1184,8 +1184,8 @@ class StaticOptions(Sized):
     field_docs = {
         "max_iterations": ("-", "of one load step, 1 .. 10000; default 60"),
         "tolerance": ("-", "residual over the norm of the forces that balance in it; default 1e-10"),
-        "slip_axial": ("m/s", "friction acts as if the string slid along the hole and turned at these speeds"),
-        "slip_rotation": ("rad/s", "both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
+        "slip_axial": ("m/s", "friction acts as if the string slid along the hole and turned at these speeds, both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
+        "slip_rotation": ("rad/s", "friction acts as if the string slid along the hole and turned at these speeds, both 0 (default): no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
         "load_steps": ("-", "equal steps from no load to full load, <= 10000, before the library chooses them itself; 0 (default): the whole load at once"),
         "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
         "steady": ("", "STEADY_..., default STEADY_AUTO"),
@@ -1384,8 +1384,8 @@ class PathReport(Sized):
         "cuts": ("-", "steps that were halved"),
         "factor": ("unit of the factor", "at the end"),
         "displacement": ("m", "at the end"),
-        "first_limit": ("unit of the factor", "at the first limit point, the first bifurcation"),
-        "first_bifurcation": ("unit of the factor", "NaN: none"),
+        "first_limit": ("unit of the factor", "at the first limit point, the first bifurcation, NaN: none"),
+        "first_bifurcation": ("unit of the factor", "at the first limit point, the first bifurcation, NaN: none"),
     }
 
 
@@ -1896,8 +1896,8 @@ class StateSpaceOptions(Sized):
         "modes": ("", "of STATE_REDUCED: modes about this state, of any kind, contact as here"),
         "mode_list": ("-", "numbers of those that are taken, shape (mode_count); NULL (default): all"),
         "mode_count": ("-", "of mode_list; 0 (default) without one"),
-        "contact": ("", "CONTACT_...; as of a response; default CONTACT_AS_IS, 1"),
-        "friction": ("", "CONTACT_...; as of a response; default CONTACT_AS_IS, 1"),
+        "contact": ("", "CONTACT_...; default CONTACT_AS_IS"),
+        "friction": ("", "as of a response; default 1"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
         "equilibrium_tolerance": ("-", "residual over the forces that balance in it; default 1e-6"),
         "shift": ("Hz", ">= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move as a rigid body, far below the frequencies that count"),
@@ -1945,7 +1945,7 @@ class StateSpaceInfo(Sized):
         ("largest_force", c_double),
     ]
     field_docs = {
-        "states": ("-", "0 of STATE_MATRICES"),
+        "states": ("-", "2 coordinates + input_states; 0 of STATE_MATRICES"),
         "inputs": ("-", ""),
         "outputs": ("-", ""),
         "coordinates": ("-", "of A: independent ones, or shapes of the basis"),
@@ -2055,8 +2055,8 @@ class TorqueDragRow(Sized):
     field_docs = {
         "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push does this; results at the rig are NaN"),
         "depth": ("m", "measured depth of the far end"),
-        "hook_load": ("N", "at the rig end: effective axial force, > 0: it pulls, < 0: it pushes"),
-        "torque": ("N m", "against friction and bit"),
+        "hook_load": ("N", "effective axial force at the rig end, > 0: it pulls, < 0: it pushes"),
+        "torque": ("N m", "at the rig end, against friction and bit"),
         "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
         "lowest_force": ("N", "least effective axial force, most compressed where < 0"),
         "lowest_at": ("m", "measured depth where"),
@@ -2113,8 +2113,8 @@ class Hydraulics(Sized):
         "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
         "circulating_density": ("kg/m3", "fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0"),
         "trip_pressure": ("Pa", "of the closed string at the trip speed, more going in, less coming out"),
-        "surge_density": ("kg/m3", "fluid_density +, - trip_pressure/(g vertical_depth)"),
-        "swab_density": ("kg/m3", "NaN if that is <= 0"),
+        "surge_density": ("kg/m3", "fluid_density +, - trip_pressure/(g vertical_depth), NaN if that is <= 0"),
+        "swab_density": ("kg/m3", "fluid_density +, - trip_pressure/(g vertical_depth), NaN if that is <= 0"),
         "reynolds": ("-", "largest of bore, annulus and trip"),
     }
 
@@ -2201,7 +2201,7 @@ class FatigueResult(Sized):
     ]
     field_docs = {
         "point": ("-", "the point of the section with the largest damage, or else the largest range"),
-        "samples": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
+        "samples": ("-", "taken"),
         "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
         "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a cycle reaches tensile_strength: the section breaks at once"),
         "cycles": ("-", "at that point, halves included"),
@@ -2414,7 +2414,7 @@ class PipeDef(Sized):
         "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across"),
         "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
         "name": ("", "of the pipes that one call adds, for messages and dmb_model_find_pipes; default \"\""),
-        "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end"),
+        "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end; 0 (default): at nodes only, so that sections bear the weight w between them as those of a beam on these points: w L^2/12 at the nodes of pipes that lie on the wall, where contact along the elements gives 0"),
     }
 
 
@@ -2721,8 +2721,8 @@ class DriveDef(DrivePart, Sized):
         "delay": ("s", "from command to force, 0 or 1e-6 .. 1e4; its largest rate, > 0; 0: jumps"),
         "force_rate": ("N/s, N m/s", "from command to force, 0 or 1e-6 .. 1e4; its largest rate, > 0; 0: jumps"),
         "lag": ("s", "time constant of the force, 0 or >= 1e-6"),
-        "drag": ("N s/m, N m s", "of the actuator at speeds > 0, and < 0 (back-spin)"),
-        "back_drag": ("N s/m, N m s", ">= 0"),
+        "drag": ("N s/m, N m s", ">= 0, of the actuator at speeds > 0"),
+        "back_drag": ("N s/m, N m s", ">= 0, at speeds < 0 (back-spin)"),
         "inertia": ("kg m2", ">= 0 of rotor and gear, turning with the component, RX of a string or a body; of MOTION too"),
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
@@ -2855,7 +2855,7 @@ class Contact(Sized):
         "sticks": ("", "1 when the bristle law holds it"),
         "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
         "part": ("", "string or body the contact point belongs to"),
-        "pipe": ("-", "pipe whose far end it is, or that it is on"),
+        "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
         "length": ("m", "of pipe it represents"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
         "normal": ("-", "outward, from the axis to the wall, world frame"),
@@ -2898,10 +2898,10 @@ class ProfileStruct(Sized):
         "string": ("", "{0, 0}: the model's first string"),
         "distance": ("m", "of the stations along the string, 0 .. its length, any order, shape (station_count); NULL: spread evenly from the rig end to the far end"),
         "quantities": ("", "PROFILE_..., shape (quantity_count)"),
-        "quantity_count": ("-", "1 .. the number of them"),
+        "quantity_count": ("-", "1 .. the number of them; repetitions allowed"),
         "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
-        "station_stride": ("-", "in doubles"),
-        "quantity_stride": ("-", "both 0 (default): quantity_count and 1"),
+        "station_stride": ("-", "in doubles, both 0 (default): quantity_count and 1"),
+        "quantity_stride": ("-", "in doubles, both 0 (default): quantity_count and 1"),
     }
 
 
@@ -2939,8 +2939,8 @@ class BucklingOptions(Sized):
         "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
         "tolerance": ("-", "of factors, 1e-15 .. 0.1; default 1e-10"),
         "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): moves the string by a millionth of an element"),
-        "slip_axial": ("m/s", "friction as in dmb_static_options"),
-        "slip_rotation": ("rad/s", "the stiffness is unsymmetric then"),
+        "slip_axial": ("m/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
+        "slip_rotation": ("rad/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
     }
     bounds = {
         "count": ("within", 1, 10000),
@@ -3442,8 +3442,8 @@ class SpringDef(SpringPart, Sized):
     field_docs = {
         "acts": ("", "SPRING_...: TENSION (rope) only pulls, COMPRESSION (buffer) only pushes; the damper acts as long as their sum does so; default SPRING_BOTH"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
-        "place_a": ("", "part {0, 0} (default): the ground"),
-        "place_b": ("", "not both"),
+        "place_a": ("", "part {0, 0} (default): the ground, not both"),
+        "place_b": ("", "part {0, 0} (default): the ground, not both"),
         "offset_a": ("m", "of the points from their places in their axes; ground: world; default 0"),
         "offset_b": ("m", "of the points from their places in their axes; ground: world; default 0"),
         "free_length": ("m", ">= 0; NOT_GIVEN (default): the length at time 0 as described, > 0"),
@@ -3540,7 +3540,7 @@ class StuckDef(Sized):
         "holds": ("", "mask of STUCK_...; default AXIAL and ROTATION"),
         "name": ("", "for messages, ends with 0; default \"\""),
         "place": ("", "of a pipe, or a body or bit; required"),
-        "stuck": ("", "1: from time 0 on, in the pose there (default)"),
+        "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
         "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
         "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
         "overpull": ("N", "axial force, pull or push; torque, either way, at which it is released, > 0, overtorque at most stiffness[1] times 1 rad; 0 (default): never, at 1 rad"),
