@@ -26,8 +26,9 @@ typedef struct component {
 static void forward(void *context, unit_status status, const char *category, const char *text)
 {
     const component *of = context;
+    const char *format = strchr(text, '%') ? "%s" : text; /* importers in Python print the format as it is */
     if (of->callbacks.logger)
-        of->callbacks.logger(of->callbacks.componentEnvironment, of->name, (fmi2Status)status, category, "%s", text);
+        of->callbacks.logger(of->callbacks.componentEnvironment, of->name, (fmi2Status)status, category, format, text);
 }
 
 static unit *unit_of(fmi2Component handle)

@@ -937,6 +937,13 @@ class BadFilesTest(unittest.TestCase):
         found = [str(one) for one in problems(SMALL.replace('time_function = "feed"', 'time_function = "nope"'))]
         self.assertTrue(any(one.endswith("names no time function; possible are feed") for one in found), found)
 
+    def test_drive_without_time_function(self):
+        for component, held in (("x", "0 m/s"), ("rx", "0 rpm")):
+            text = SMALL.replace('[[drive]]', f'[[drive]]\nname = "bare"\ncomponent = "{component}"\n\n[[drive]]', 1)
+            found = [str(one) for one in problems(text)]
+            self.assertTrue(any(f'must have a time function: the name of one, or a constant as time_function = "{held}"'
+                                in one for one in found), found)
+
     def test_all_faults_at_once(self):
         text = SMALL.replace('"94 mm"', '"-94 mm"\nrestitution = 3\nmu_dynamics = 0.1').replace('"10 ms"', '"10 kg"')
         keys = [one.key for one in problems(text)]

@@ -141,10 +141,13 @@ class StartingTest(unittest.TestCase):
             status, text, _ = said("keys", table)
             self.assertEqual(status, 0)
             self.assertNotIn("DMB_", text)
+            self.assertNotIn(" : ", text)  # "0 (default): none" is read as "0: none"
+            self.assertNotIn("default nan", text)
             listed = [row[0] for row in keys.listed(table)]
             self.assertEqual(listed[:len(usual.split())], usual.split())
             self.assertEqual(len(listed), len(set(listed)))
         self.assertRegex(said("keys", "string.pipes")[1], r"outer_diameter +\[m\], default 0.073 m")
+        self.assertRegex(said("keys", "drive")[1], r'time_function +required: .* a constant, as "120 rpm"')
         self.assertEqual(said("keys", "pips")[0], 2)
 
 

@@ -102,6 +102,7 @@ REFUSED = (("depth [m],inclination [deg],azimuth [deg]\n0,0,0\n100,,\n200,10,45\
            (CSV.replace("200,10,45", "200;10;45").replace(",", ";").replace("200;", "1,200;"),
             ("line 4, column 1", "1200", "1.200")),
            ("MD,Inclination,Azimuth\n0,0,0\n100,0,0\n", ("MD", "has no unit", "survey_columns")),
+           ("MD m,Incl. from vertical,Azi\n0,0,0\n100,0,0\n", ("no head names an inclination", "survey_columns")),
            ("a,b,c\n0,0,0\n100,0,0\n", ("line 1 (a, b, c)", "survey_columns")), ("", ("empty",)),
            ("depth [m],azimuth [deg]\n0,0\n100,0\n", ("inclination", "dip")),
            ("well,depth [m],inclination [deg],azimuth [deg]\nA,0,0,0\nA,100,0,0\nB,200,0,0\n", ("2 holes", "A, B")),

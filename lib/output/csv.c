@@ -77,7 +77,7 @@ int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const dmb_sim *sim,
     dmb_message why;
     dmb_message_clear(&why);
     const int32_t status = write_recorder(recorder, sim, path, &why);
-    return dmb_file_failed("recorder", path, status, &why);
+    return dmb_file_failed(sim, "recorder", path, status, &why);
 }
 
 /* A frequency response as comma-separated values: frequency, then amplitude and phase of each transfer function and of
@@ -149,5 +149,5 @@ static int32_t write_response(const dmb_response *response, const dmb_sim *sim, 
 
 int32_t dmb_response_write_csv(const dmb_response *response, const dmb_sim *sim, const char *path)
 {
-    return dmb_file_failed("response", path, write_response(response, sim, path), NULL);
+    return dmb_file_failed(sim, "response", path, write_response(response, sim, path), NULL);
 }

@@ -8,6 +8,10 @@
 #include "output/text_file.h"
 #include "sim/sim.h"
 
+/* Ends a public call that writes a file: a failure is one of the sim (NULL: of the thread alone), `why` its message
+ * unless that is empty (NULL: empty). Returns status. */
+int32_t dmb_file_failed(const dmb_sim *sim, const char *call, const char *path, int32_t status, dmb_message *why);
+
 /* ---- Recorders --------------------------------------------------------------------------------------------------- */
 
 /* Copies and checks the caller's struct. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _NOT_FINITE, _VALUE. */

@@ -229,5 +229,13 @@ int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, con
     dmb_message why;
     dmb_message_clear(&why);
     const int32_t status = write_profiles(recorder, path, &why);
-    return dmb_file_failed("profile recorder", path, status, &why);
+    return dmb_file_failed(NULL, "profile recorder", path, status, &why);
+}
+
+int32_t dmb_file_failed(const dmb_sim *sim, const char *call, const char *path, int32_t status, dmb_message *why)
+{
+    dmb_message none;
+    if (status >= 0) return status;
+    if (why == NULL) dmb_message_clear(why = &none);
+    return dmb_sim_fail(sim, status, call, dmb_file_message(why, call, path, status));
 }

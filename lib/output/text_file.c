@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/failure.h"
 #include "base/number.h"
 #include "drillmbd/base.h"
 
@@ -176,16 +175,12 @@ void dmb_text_end_base64(dmb_text_file *file)
 
 /* ---- Failures ---------------------------------------------------------------------------------------------------- */
 
-int32_t dmb_file_failed(const char *call, const char *path, int32_t status, const dmb_message *why)
+const char *dmb_file_message(dmb_message *why, const char *call, const char *path, int32_t status)
 {
     enum { SHOWN = 200 }; /* [byte] of the end of a path: a message has room for them */
-    dmb_message text;
-    if (status >= 0) return status;
-    if (status != DMB_ERR_IO || path == NULL)
-        return dmb_failure(NULL, NULL, status, call, why == NULL ? NULL : why->text);
+    if (status != DMB_ERR_IO || path == NULL) return why->text;
     const size_t length = strlen(path), from = length > SHOWN ? length - SHOWN : 0;
-    dmb_message_set(&text,
-                    "%s: file %s%s cannot be written; give a folder that is there, may be written to and has room",
+    dmb_message_set(why, "%s: file %s%s cannot be written; give a folder that is there, may be written to and has room",
                     call, from > 0 ? "..." : "", path + from);
-    return dmb_failure(NULL, NULL, status, call, text.text);
+    return why->text;
 }

@@ -41,9 +41,8 @@ void dmb_text_put_count(dmb_text_file *file, uint64_t value);
 void dmb_text_begin_base64(dmb_text_file *file);
 void dmb_text_put_word(dmb_text_file *file, uint64_t word);
 void dmb_text_end_base64(dmb_text_file *file);
-/* Ends a public call that writes the file: a failure is the thread's last error, `why` its message unless that is empty
- * (NULL: empty). Returns status. */
-int32_t dmb_file_failed(const char *call, const char *path, int32_t status, const dmb_message *why);
+/* The message of a public call that failed to write the file: that the path cannot be written, or `why` as it is. */
+const char *dmb_file_message(dmb_message *why, const char *call, const char *path, int32_t status);
 /* DMB_OK if all data have reached the file, else DMB_ERR_IO. */
 int32_t dmb_text_close(dmb_text_file *file);
 

@@ -117,7 +117,7 @@ static int32_t write_strings(const dmb_sim *sim, uint32_t per_element, const cha
 
 int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path)
 {
-    return dmb_file_failed("picture of strings", path, write_strings(sim, per_element, path), NULL);
+    return dmb_file_failed(sim, "picture of strings", path, write_strings(sim, per_element, path), NULL);
 }
 
 /* The hole as a tube of quadrilaterals, for ParaView. */
@@ -270,7 +270,15 @@ static int32_t write_hole(const dmb_model *model, double depth0, double depth1, 
 int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
                            const char *path)
 {
-    return dmb_file_failed("picture of hole", path, write_hole(model, depth0, depth1, spacing, around, path), NULL);
+    static const char call[] = "picture of hole";
+    dmb_message why;
+    const int32_t status = write_hole(model, depth0, depth1, spacing, around, path);
+    if (status >= 0) return status;
+    dmb_message_clear(&why);
+    if (status == DMB_ERR_UNSUPPORTED)
+        dmb_message_set(&why, "%s: the model has no wall; add one before it is compiled", call);
+    if (status == DMB_ERR_ORDER) dmb_message_set(&why, "%s: the model is not compiled; compile it first", call);
+    return dmb_model_fail(model, status, call, dmb_file_message(&why, call, path, status));
 }
 
 /* A frame of a mode's animation: the strings displaced by its shape. */
@@ -331,5 +339,6 @@ static int32_t write_mode(const dmb_modes *modes, uint32_t index, double scale, 
 int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
                            const char *path)
 {
-    return dmb_file_failed("picture of mode", path, write_mode(modes, index, scale, phase, per_element, path), NULL);
+    return dmb_file_failed(NULL, "picture of mode", path, write_mode(modes, index, scale, phase, per_element, path),
+                           NULL);
 }

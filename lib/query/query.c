@@ -164,7 +164,11 @@ int32_t dmb_query_pose_at(const dmb_sim *sim, dmb_place place, const double offs
 
 int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile)
 {
-    return result(sim, dmb_answer_profile(sim, profile), (query){"profile", NULL, NULL, 0, 0});
+    const int32_t status = dmb_answer_profile(sim, profile);
+    if (status == DMB_ERR_NULL)
+        return dmb_sim_fail(sim, status, "profile",
+                            "profile: sim, profile, its quantities and its values must not be NULL; give them");
+    return result(sim, status, (query){"profile", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])

@@ -291,6 +291,36 @@ static void space_runs_out(void **state)
     close_scene(&s);
 }
 
+/* A failing writer is a failing call on its sim or model: dmb_sim_message, dmb_model_message and dmb_last_error agree.
+ */
+static void objects_have_the_message(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_error error = dmb_error_default();
+    open_scene(&s);
+    assert_int_equal(dmb_write_vtk_strings(s.sim, 1, "/proc/none"), DMB_ERR_IO);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "/proc/none"));
+    must(dmb_last_error(&error));
+    assert_string_equal(dmb_sim_message(s.sim), error.message);
+    assert_int_equal(dmb_write_vtk_hole(s.r.model, 0.0, 1.0, 0.5, 8, "/proc/hole"), DMB_ERR_IO);
+    assert_non_null(strstr(dmb_model_message(s.r.model), "/proc/hole"));
+    assert_int_equal(dmb_response_write_csv(s.response, s.sim, "/proc/response"), DMB_ERR_IO);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "/proc/response"));
+    close_scene(&s);
+
+    dmb_model *bare = NULL;
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    must(dmb_model_create(NULL, &bare));
+    must(dmb_model_add_pipes(bare, &pipe, 1, NULL));
+    assert_int_equal(dmb_write_vtk_hole(bare, 0.0, 1.0, 0.5, 8, "/proc/hole"), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_model_message(bare), "compile it first"));
+    must(dmb_model_compile(bare, NULL));
+    assert_int_equal(dmb_write_vtk_hole(bare, 0.0, 1.0, 0.5, 8, "/proc/hole"), DMB_ERR_UNSUPPORTED);
+    assert_non_null(strstr(dmb_model_message(bare), "has no wall; add one"));
+    dmb_model_destroy(&bare);
+}
+
 /* Devices are written to, links and modes stay, folders and what stands in none are refused. */
 static void places_of_all_kinds(void **state)
 {
@@ -522,10 +552,11 @@ static void response_reads_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_call_fails_once), cmocka_unit_test(space_runs_out),
-        cmocka_unit_test(places_of_all_kinds),   cmocka_unit_test(read_only_folders),
-        cmocka_unit_test(places_that_are_none),  cmocka_unit_test(long_names),
-        cmocka_unit_test(what_is_no_number),     cmocka_unit_test(response_reads_back),
+        cmocka_unit_test(every_call_fails_once),    cmocka_unit_test(space_runs_out),
+        cmocka_unit_test(places_of_all_kinds),      cmocka_unit_test(read_only_folders),
+        cmocka_unit_test(places_that_are_none),     cmocka_unit_test(long_names),
+        cmocka_unit_test(objects_have_the_message), cmocka_unit_test(what_is_no_number),
+        cmocka_unit_test(response_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,11 +56,12 @@ static void note(fmi2ComponentEnvironment environment, fmi2String name, fmi2Stat
 {
     (void)environment, (void)status, (void)category;
     assert_string_equal(name, "rig");
-    assert_string_equal(message, "%s");
     va_list arguments;
     va_start(arguments, message);
     snprintf(told, sizeof told, "%s", va_arg(arguments, const char *));
     va_end(arguments);
+    /* an importer that does not format it has the text too */
+    assert_string_equal(message, strchr(told, '%') != NULL ? "%s" : told);
 }
 
 static const fmi2CallbackFunctions callbacks = {note, calloc, free, NULL, NULL};

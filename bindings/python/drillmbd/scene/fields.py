@@ -30,6 +30,13 @@ LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_tab
             "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
 LEFT_OUT_OF = {("DriveDef", "value")}  # time_function = "120 rpm" says the same
+#: Meaning of a key that scene files read in another way than C.
+ABOUT_OF = {("DriveDef", "time_function"): 'required: the name of a time function, or a constant, as "120 rpm"; "0 m/s" holds',
+            ("InputDef", "part"): "drive, load, bit or stuck place; left out: wall and environment",
+            ("InputDef", "initial"): "at time 0, within the bounds; left out: as described, which for set-point, load-factor and "
+                                     "bit-load is the time function, until the input is set",
+            ("InputDef", "rate_limit"): "of set-point, load-factor and bit-load: the most it changes in a second, > 0; 0: it jumps. "
+                                        "Required for the set point of a motion drive: largest acceleration"}
 
 
 @dataclass(frozen=True)
@@ -72,6 +79,7 @@ def fields_of(struct: Any) -> dict[str, Field]:
     for name, kind in struct._fields_:
         if name not in LEFT_OUT and (struct.__name__, name) not in LEFT_OUT_OF and "reserved" not in name and not _is_pointer(kind):
             unit, about = struct.field_docs.get(name, ("", ""))
+            about = ABOUT_OF.get((struct.__name__, name), about)
             found[name] = replace(_field(name, kind, unit, about), bound=struct.bounds.get(name))
     return found
 

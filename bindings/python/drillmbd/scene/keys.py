@@ -52,6 +52,9 @@ _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 
          "table": ("", "", 'pairs, as [["0 s", "0 kN"], ["2 s", "8 kN"]]')}
 
 
+NO_BOUND = 1e30  # a default from here on, or NaN, is no value of the field
+
+
 def _fields(table: str) -> dict[str, Field]:
     own: dict[str, dict[str, Field]] = {"limits": LIMITS, "run": RUN, "results": OUTPUT}
     found = dict(own[table] if table in own else fields_of(DEFINITIONS[TABLES[table][0]]))
@@ -67,6 +70,8 @@ def _default(table: str, field: Field) -> str:
         return ""
     if field.enum is not None and field.kind == "enum":
         return next((word for word, number in words_of(field.enum).items() if number == value), "")
+    if isinstance(value, float) and not abs(value) < NO_BOUND:
+        return ""
     if hasattr(value, "__len__"):
         return "[" + ", ".join(f"{one:g}" for one in value) + "]" if len(value) <= 6 else ""
     unit = field.unit.split(",")[0] if "," not in field.unit else ""
@@ -78,7 +83,8 @@ def _meaning(field: Field) -> str:
         return "one of " + ", ".join(words_of(field.enum))
     text = re.sub(r"(?:;|,)? ?default[^;]*|\(default\)|; shape \([^)]*\)|, shape \([^)]*\)|shape \([^)]*\)", "",
                   field.about)
-    return re.sub(r"\s+", " ", text.replace("{0, 0} : ", "left out: ").replace("{0, 0}: ", "left out: ")).strip(" ;,")
+    text = re.sub(r"\s+", " ", text).replace(" : ", ": ")  # "0 (default): none" without "(default)"
+    return text.replace("{0, 0}: ", "left out: ").strip(" ;,")
 
 
 def listed(table: str) -> list[tuple[str, str, str, str]]:

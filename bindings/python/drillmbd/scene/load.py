@@ -551,7 +551,9 @@ class Loader:
         if kind in NAMED:
             self.own_name(path, table, values)
         if kind == "drive" and "time_function" not in table:
-            self.problems.add(path, None, "must have a time function")
+            held = "0 m/s" if component < 3 else "0 rpm"
+            self.problems.add(path, None, "must have a time function: the name of one, or a constant as "
+                              f'time_function = "{held}" (a motion that is held)')
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
         self.put(name, kind, None)
         if not refused and not (kind == "drive" and "time_function" not in values) and not (

@@ -131,7 +131,8 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
         _turn_down(found)
     by_dip = "dip" in found.heads and "inclination" not in found.heads
     if not by_dip and "inclination" not in found.heads and not found.faults:
-        found.faults.append("no head names an inclination (from the downward vertical) or a dip (from the horizontal)")
+        found.faults.append("no head names an inclination (from the downward vertical) or a dip (from the horizontal); "
+                            + columns.SURVEY_ADVICE)
     if found.faults:
         for one in found.faults:
             problems.add(path, name, one)
