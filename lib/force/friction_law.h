@@ -39,14 +39,14 @@ typedef struct dmb_friction_law {
 
 /* A law with coefficients of the place, which differ from lane to lane in a hole of sections. */
 typedef struct dmb_local_friction {
-    const dmb_friction_law *law;    /* all other constants */
     dmb_real mu_static, mu_dynamic; /* [-] */
+    const dmb_friction_law *law;    /* all other constants */
     int32_t *failed;                /* raised to 1 where the caller's function fails; NULL: nobody asks */
 } dmb_local_friction;
 
 static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *law)
 {
-    const dmb_local_friction local = {law, dmb_real_of(law->mu_static), dmb_real_of(law->mu_dynamic), NULL};
+    const dmb_local_friction local = {dmb_real_of(law->mu_static), dmb_real_of(law->mu_dynamic), law, NULL};
     return local;
 }
 

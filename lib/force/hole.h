@@ -342,7 +342,7 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
             by_place[k] = dmb_real_select(slides, force->F[1 + k] / divisor * c->mu_dynamic_slope, zero);
         return;
     }
-    const dmb_local_friction slopes = {c->friction.law, c->mu_static_slope, c->mu_dynamic_slope, NULL};
+    const dmb_local_friction slopes = {c->mu_static_slope, c->mu_dynamic_slope, c->friction.law, NULL};
     dmb_real by_normal[2];
     dmb_friction_smooth_at(&slopes, N, f->speed + 1, by_place, NULL, by_normal);
 }

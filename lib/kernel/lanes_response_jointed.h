@@ -262,6 +262,7 @@ static void eliminate_jointed(jointed_lanes *l, uint32_t k)
     const uint32_t begin = pattern->column[k], end = pattern->column[k + 1];
     const size_t n = size_at(l, k);
     double *D = block_at(l, pattern->diagonal[k]), *b = sides_at(l, k);
+    /* NOLINTNEXTLINE(misc-redundant-expression): the macro compares both sizes of a block, which is square here */
     (void)JOINTED_BY_SIZE(factor_jointed, n, n, l, l->args->row[pattern->order[k]], D);
     solve_jointed_sides(l, n, D, b);
     for (uint32_t e = begin; e < end; e++) {

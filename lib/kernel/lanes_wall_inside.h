@@ -31,11 +31,12 @@ static inline void section_velocity_before(const dmb_wall_args *args, const wall
 
 /* Sections of a group, and the places of their far nodes; the near ones are those of the group. */
 typedef struct wall_section {
-    const dmb_inside_args *args;
-    dmb_section_constants constants;
     dmb_section_shape shape;
+    dmb_real d[6];
+    dmb_section_constants constants;
+    dmb_real v[12];
     dmb_section_frame frame;
-    dmb_real d[6], v[12];
+    const dmb_inside_args *args;
     lane_places node, row;
 } wall_section;
 

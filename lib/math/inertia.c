@@ -236,7 +236,7 @@ uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagon
 {
     enum { STRIDE = 2 * DMB_BLOCK_SIZE_MAX };
     const uint32_t end = first + count;
-    block_front b;
+    block_front b = {.next = {0.0}};
     uint32_t negative = 0;
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
