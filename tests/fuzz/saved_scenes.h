@@ -164,9 +164,25 @@ static inline int32_t saved_push(void *context, double time, uint32_t count, con
     return 0;
 }
 
+/* A law with a state: a force of at most 1 N that follows it. */
+static inline int32_t saved_law(void *context, double time, uint32_t count, const double (*poses)[12],
+                                const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential,
+                                const dmb_law_memory *memory)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)tangent, (void)potential;
+    for (int i = 0; i < 6; i++) forces[0][i] = 0.0;
+    forces[0][1] = fmin(1.0, fmax(-1.0, memory->accepted[0]));
+    memory->trial[0] = 0.5 * memory->accepted[0] + 0.1;
+    return 0;
+}
+
 static inline void saved_force(saved_scene *s, dmb_id part, uint32_t pipe)
 {
-    dmb_force_def force = dmb_force_def_default();
+    dmb_force_def force = dmb_force_def_default(), law = dmb_force_def_default();
+    law.place[0] = dmb_station(part, pipe, 0.0);
+    law.state_count = 1;
+    law.callback = saved_law;
+    SAVED_MUST(s, dmb_model_add_force(s->model, &law, NULL));
     force.place[0] = dmb_station(part, pipe, 0.0);
     force.provides = DMB_PROVIDES_POTENTIAL;
     force.callback = saved_push;
