@@ -43,6 +43,7 @@
 #define DMB_SLIP_MAX 1e6            /* [m/s, rad/s] speeds of analyses */
 #define DMB_FREQUENCY_MAX 1e9       /* [Hz] its square times a mass is far from overflow */
 #define DMB_FRICTION_MAX 10.0       /* [-] coefficient of torque and drag */
+#define DMB_FACTOR_MAX 1e12         /* [unit of the factor] of critical factors by default: far beyond all loads */
 #define DMB_OPTION_MAX 1e300        /* of options without another bound */
 
 enum {

@@ -43,7 +43,7 @@
     FIELD(T, 2, scale, "", WITHIN(DMB_SCALE_ALL, DMB_SCALE_PART), DMB_SCALE_LOADS) \
     FIELD(T, 3, follow, "", WITHIN(0, 1), 1) \
     FIELD(T, 4, part, "", ANY, {0, 0}) \
-    FIELD(T, 5, factor_max, "unit of the factor", WITHIN(1e-300, DMB_OPTION_MAX), 1e12) \
+    FIELD(T, 5, factor_max, "unit of the factor", WITHIN(1e-300, DMB_OPTION_MAX), DMB_FACTOR_MAX) \
     FIELD(T, 6, tolerance, "-", WITHIN(1e-15, 0.1), 1e-10) \
     FIELD(T, 7, step, "unit of the factor", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
     FIELD(T, 8, slip_axial, "m/s", WITHIN(-DMB_SLIP_MAX, DMB_SLIP_MAX), 0.0) \

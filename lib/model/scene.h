@@ -217,15 +217,15 @@ typedef struct dmb_batch {
 } dmb_batch;
 
 typedef struct dmb_scene {
-    const struct dmb_model *model;     /* the model that owns the scene; gives names for messages */
-    size_t bytes;                      /* of the arena, this struct included */
-    int32_t features;                  /* DMB_FEATURE_... that are both requested and described */
-    int32_t damped, arms;              /* 1: some element has a damping time; has rigid arms to its nodes */
-    int32_t beams_only;                /* 1: every element has two six-DOF nodes */
-    int32_t curved, curved_reserved;   /* 1: some element has the mass matrix of curved elements */
+    const struct dmb_model *model; /* the model that owns the scene; gives names for messages */
+    size_t bytes;                  /* of the arena, this struct included */
+    int32_t features;              /* DMB_FEATURE_... that are both requested and described */
+    int32_t damped, arms;          /* 1: some element has a damping time; has rigid arms to its nodes */
+    int32_t beams_only;            /* 1: every element has two six-DOF nodes */
+    int32_t curved;                /* 1: some element has the mass matrix of curved elements */
+    uint32_t added_mass_count;
     const struct dmb_kernels *kernels; /* loops of a step, for the vector width of the processor */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
-    uint32_t added_mass_count, added_reserved;
     uint32_t inside_count;   /* contact points inside elements, the last ones of `sites` */
     uint32_t sites_in_order; /* leading contact points in the order of their nodes */
     uint32_t site_count, axial_torsional_site_count, drive_count, load_count, bit_count, time_function_count;

@@ -118,20 +118,10 @@ void dmb_text_put(dmb_text_file *file, const char *text)
     put_bytes(file, text, strlen(text));
 }
 
-static void put_digits(dmb_text_file *file, double value, int digits)
-{
-    char text[DMB_NUMBER_SIZE];
-    put_bytes(file, text, dmb_number_from_double(text, value, digits));
-}
-
 void dmb_text_put_number(dmb_text_file *file, double value)
 {
-    put_digits(file, value, DMB_NUMBER_EXACT);
-}
-
-void dmb_text_put_short(dmb_text_file *file, double value)
-{
-    put_digits(file, value, 6);
+    char text[DMB_NUMBER_SIZE];
+    put_bytes(file, text, dmb_number_from_double(text, value, DMB_NUMBER_EXACT));
 }
 
 void dmb_text_put_count(dmb_text_file *file, uint64_t value)

@@ -35,7 +35,6 @@ typedef struct dmb_text_file {
 int32_t dmb_text_open(dmb_text_file *file, const char *path);
 void dmb_text_put(dmb_text_file *file, const char *text);
 void dmb_text_put_number(dmb_text_file *file, double value); /* 17 digits: exact when read back */
-void dmb_text_put_short(dmb_text_file *file, double value);  /* 6 digits */
 void dmb_text_put_count(dmb_text_file *file, uint64_t value);
 /* 64-bit words in base 64, least significant byte first, between begin and end (RFC 4648). */
 void dmb_text_begin_base64(dmb_text_file *file);

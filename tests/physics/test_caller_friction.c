@@ -70,7 +70,7 @@ static int32_t bristles(void *context, const dmb_friction_at *at, double force[2
 
 /* ---- The bristles of the library --------------------------------------------------------------------------------- */
 
-enum { AT_NODES, ALONG_ELEMENTS, AXIAL_TORSIONAL, IN_SECTIONS, SCENES };
+enum { AT_NODES, ALONG_ELEMENTS, AXIAL_TORSIONAL, IN_SECTIONS, IN_A_CURVE, SCENES };
 
 static dmb_place middle;
 static double steady_pull;      /* [m/s] of the rig end; 0: to and fro */
@@ -91,8 +91,9 @@ static rig string_in_hole(int scene, law *o, uint32_t pipes)
     wall.friction_context = o;
     wall.friction_state_count = o != NULL ? 2 : 0;
     wall.friction_accept = o != NULL ? hear : NULL;
-    const double survey[6] = {0.0, 0.5 * PI, 0.0, 60.0, 0.5 * PI - 0.3, 0.0};
-    if (scene == AXIAL_TORSIONAL) wall.survey_count = 2, wall.survey = survey;
+    const double bend = scene == IN_A_CURVE ? 0.012 : 0.3; /* straight pipes have room in the curve */
+    const double survey[6] = {0.0, 0.5 * PI, 0.0, 60.0, 0.5 * PI - bend, 0.0};
+    if (scene == AXIAL_TORSIONAL || scene == IN_A_CURVE) wall.survey_count = 2, wall.survey = survey;
     (void)add_wall(&s, &wall);
     dmb_hole_section section = dmb_hole_section_default();
     section.depth = 2.0;
@@ -106,7 +107,7 @@ static rig string_in_hole(int scene, law *o, uint32_t pipes)
     pipe.string = add_string(&s, &string);
     pipe.damping_time = 1e-4;
     if (scene == AXIAL_TORSIONAL) pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
-    if (scene == ALONG_ELEMENTS) pipe.contact_points = 3;
+    if (scene == ALONG_ELEMENTS || scene == IN_A_CURVE) pipe.contact_points = 3;
     (void)add_pipes(&s, &pipe, pipes);
     dmb_segment pull = dmb_segment_default(), turn = pull;
     pull.kind = turn.kind = DMB_SEGMENT_HARMONIC;
@@ -138,7 +139,8 @@ static double far_from(const rig *a, dmb_place at, const rig *b, dmb_place to)
 
 static void the_bristles_written_again(void **state)
 {
-    static const char *const what[SCENES] = {"at nodes", "along elements", "axial-torsional", "in sections"};
+    static const char *const what[SCENES] = {"at nodes", "along elements", "axial-torsional", "in sections",
+                                             "in a curve"};
     (void)state;
     for (int scene = 0; scene < SCENES; scene++) {
         law o = {0};

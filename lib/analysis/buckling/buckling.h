@@ -222,9 +222,6 @@ void dmb_frames_turn_chains(dmb_sim *sim);
 /* Transforms the reduced system of the trial, just assembled. 0 if coordinates are no longer independent. */
 int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames);
 
-/* Default of options.factor_max: far beyond all loads. */
-#define DMB_FACTOR_MAX 1e12
-
 struct dmb_buckling {
     uint32_t magic;
     uint32_t count; /* number of factors found */
