@@ -87,50 +87,52 @@ class Keep:
         self.references: list[Any] = []
         self.raised = threading.local()
 
+    def _c_function(self, kind: Any, call: Callable[..., None]) -> Any:
+        """The C function of a type whose calls return 0, or 1 with the exception held: it must not unwind through C."""
+        def guarded(*arguments: Any) -> int:
+            try:
+                call(*arguments)
+                return 0
+            except BaseException as error:
+                self.raised.error = error
+                return 1
+
+        return self._kept(kind(guarded))
+
+    def _kept(self, wrapped: Any) -> Any:
+        self.references.append(wrapped)
+        return wrapped
+
     def time_function(self, function: Callable[[float], Any], provides: int) -> Any:
         """The C function around a Python function of time. An exception stops the step and comes out of the call."""
         wanted = 3 if provides & PROVIDES_INTEGRAL else 2 if provides & PROVIDES_RATE else 1
 
-        def call(_context: Any, time: float, out: Any) -> int:
-            try:
-                answer = function(time)
-                if type(answer) is tuple and len(answer) == wanted and all(type(one) is float for one in answer):  # at once
-                    for i in range(wanted):
-                        out[i] = answer[i]
-                    return 0
-                if wanted == 1:
-                    out[0] = real(answer, "time_function", "result of the function")
-                    return 0
-                for i, value in enumerate(reals(answer, "time_function", "result of the function", wanted)):
-                    out[i] = value
-                return 0
-            except BaseException as error:  # must not unwind through C
-                self.raised.error = error
-                return 1
+        def call(_context: Any, time: float, out: Any) -> None:
+            answer = function(time)
+            if type(answer) is tuple and len(answer) == wanted and all(type(one) is float for one in answer):  # at once
+                for i in range(wanted):
+                    out[i] = answer[i]
+                return
+            if wanted == 1:
+                out[0] = real(answer, "time_function", "result of the function")
+                return
+            for i, value in enumerate(reals(answer, "time_function", "result of the function", wanted)):
+                out[i] = value
 
-        wrapped = TIME_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._c_function(TIME_FN, call)
 
     def constraint(self, function: Callable[..., Any], rows: int, provides: int) -> Any:
         """The C function around a Python function of time and poses."""
-        def call(_context: Any, time: float, count: int, poses: Any, value: Any, jacobian: Any) -> int:
-            try:
-                answer = function(time, [list(poses[i]) for i in range(count)])
-                values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
-                for i, number in enumerate(reals(flat(values), "constraint", "values of the function", rows)):
-                    value[i] = number
-                if derivatives is not None:
-                    for i, number in enumerate(reals(flat(derivatives), "constraint", "jacobian", 6 * rows * count)):
-                        jacobian[i] = number
-                return 0
-            except BaseException as error:  # must not unwind through C
-                self.raised.error = error
-                return 1
+        def call(_context: Any, time: float, count: int, poses: Any, value: Any, jacobian: Any) -> None:
+            answer = function(time, [list(poses[i]) for i in range(count)])
+            values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
+            for i, number in enumerate(reals(flat(values), "constraint", "values of the function", rows)):
+                value[i] = number
+            if derivatives is not None:
+                for i, number in enumerate(reals(flat(derivatives), "constraint", "jacobian", 6 * rows * count)):
+                    jacobian[i] = number
 
-        wrapped = CONSTRAINT_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._c_function(CONSTRAINT_FN, call)
 
     def force(self, function: Callable[..., Any], provides: int, states: int = 0) -> Any:
         """The C function around a Python function of time, poses and velocities, of a law with a state also of the state
@@ -141,56 +143,42 @@ class Keep:
         wanted = 1 + words.count(",")
 
         def call(_context: Any, time: float, count: int, poses: Any, velocities: Any, forces: Any, tangent: Any,
-                 potential: Any, memory: Any) -> int:
-            try:
-                motion = [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)]
-                law = memory.contents
-                answer = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
-                parts = list(answer) if wanted > 1 else [answer]
-                if len(parts) != wanted:
-                    refuse_type("force", "result of the function", answer, f"be a tuple of {wanted}: force{words}")
-                if states:
-                    for i, number in enumerate(reals(flat(parts.pop()), "force", "state", states)):
-                        law.trial[i] = number
-                for i, number in enumerate(reals(flat(parts.pop(0)), "force", "result of the function", 6 * count)):
-                    forces[i // 6][i % 6] = number
-                if provides & PROVIDES_TANGENT:
-                    entries = [one for _ in range(2) for one in reals(flat(parts.pop(0)), "force", "tangent", 36 * count * count)]
-                    for i, number in enumerate(entries if tangent else ()):
-                        tangent[i] = number
-                if provides & PROVIDES_POTENTIAL:
-                    potential[0] = float(parts.pop(0))
-                return 0
-            except BaseException as error:  # must not unwind through C
-                self.raised.error = error
-                return 1
+                 potential: Any, memory: Any) -> None:
+            motion = [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)]
+            law = memory.contents
+            answer = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
+            parts = list(answer) if wanted > 1 else [answer]
+            if len(parts) != wanted:
+                refuse_type("force", "result of the function", answer, f"be a tuple of {wanted}: force{words}")
+            if states:
+                for i, number in enumerate(reals(flat(parts.pop()), "force", "state", states)):
+                    law.trial[i] = number
+            for i, number in enumerate(reals(flat(parts.pop(0)), "force", "result of the function", 6 * count)):
+                forces[i // 6][i % 6] = number
+            if provides & PROVIDES_TANGENT:
+                entries = [one for _ in range(2) for one in reals(flat(parts.pop(0)), "force", "tangent", 36 * count * count)]
+                for i, number in enumerate(entries if tangent else ()):
+                    tangent[i] = number
+            if provides & PROVIDES_POTENTIAL:
+                potential[0] = float(parts.pop(0))
 
-        wrapped = FORCE_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._c_function(FORCE_FN, call)
 
     def friction(self, function: Callable[..., Any], states: int) -> Any:
         """The C function around a Python law of friction on the wall."""
-        def call(_context: Any, at: Any, force: Any, by_slip: Any, by_normal: Any, memory: Any) -> int:
-            try:
-                law, told = memory.contents, at.contents
-                answer = list(function(told, law.accepted[:states], law.step) if states else function(told))
-                if len(answer) != 3 + (states > 0):
-                    refuse_type("friction", "result of the function", answer,
-                                f"be a tuple of force, by_slip, by_normal{', state' if states else ''}")
-                for to, count, word in ((force, 2, "force"), (by_slip, 4, "by_slip"), (by_normal, 2, "by_normal")):
-                    for i, number in enumerate(reals(flat(answer.pop(0)), "friction", word, count)):
-                        to[i] = number
-                for i, number in enumerate(reals(flat(answer.pop(0)), "friction", "state", states) if states else ()):
-                    law.trial[i] = number
-                return 0
-            except BaseException as error:  # must not unwind through C
-                self.raised.error = error
-                return 1
+        def call(_context: Any, at: Any, force: Any, by_slip: Any, by_normal: Any, memory: Any) -> None:
+            law, arguments = memory.contents, at.contents
+            answer = list(function(arguments, law.accepted[:states], law.step) if states else function(arguments))
+            if len(answer) != 3 + (states > 0):
+                refuse_type("friction", "result of the function", answer,
+                            f"be a tuple of force, by_slip, by_normal{', state' if states else ''}")
+            for to, count, word in ((force, 2, "force"), (by_slip, 4, "by_slip"), (by_normal, 2, "by_normal")):
+                for i, number in enumerate(reals(flat(answer.pop(0)), "friction", word, count)):
+                    to[i] = number
+            for i, number in enumerate(reals(flat(answer.pop(0)), "friction", "state", states) if states else ()):
+                law.trial[i] = number
 
-        wrapped = FRICTION_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._c_function(FRICTION_FN, call)
 
     def accept(self, function: Callable[[float, int, list[float]], Any], states: int) -> Any:
         """The C function around a Python function of time, number and accepted state of a law."""
@@ -201,9 +189,7 @@ class Keep:
                 if getattr(self.raised, "accept", None) is None:
                     self.raised.accept = error
 
-        wrapped = ACCEPT_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._kept(ACCEPT_FN(call))
 
     def log(self, function: Callable[[int, str], None]) -> Any:
         """The C function around a Python function of level and text."""
@@ -213,9 +199,7 @@ class Keep:
             except BaseException as error:
                 self.raised.error = error
 
-        wrapped = LOG_FN(call)
-        self.references.append(wrapped)
-        return wrapped
+        return self._kept(LOG_FN(call))
 
     def forget(self) -> tuple[BaseException | None, BaseException | None]:
         """The exceptions of callbacks and of accept functions in the last call, which are then held no longer."""

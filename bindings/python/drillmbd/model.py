@@ -151,14 +151,14 @@ class Model(Handle, ModelCalls):
             """Adds the hole, by a WallDef or its fields; returns its id. One hole a model. friction: a law of one's own, a
             function of a FrictionAt that returns force, derivatives by slip (2, 2) and by normal force; with
             friction_state_count > 0 also of the accepted state and the step [s], and the new state comes last."""
-            function, told = fields.pop("friction", None), fields.pop("friction_accept", None)
-            if function is not None or told is not None:
+            function, accept = fields.pop("friction", None), fields.pop("friction_accept", None)
+            if function is not None or accept is not None:
                 definition = struct(WallDef, definition, fields)
                 fields, states = {}, definition.friction_state_count
                 if function is not None:
                     definition.friction_law, definition.friction_callback = FRICTION_CALLBACK, self._keep.friction(function, states)
-                if told is not None:
-                    definition.friction_accept = self._keep.accept(told, states)
+                if accept is not None:
+                    definition.friction_accept = self._keep.accept(accept, states)
             return self._add("wall", WallDef, definition, fields)
 
     @mirrors("dmb_model_add_hole_sections")
@@ -276,10 +276,10 @@ class Model(Handle, ModelCalls):
         def add_force(self, definition: ForceDef | None = None, **fields: Any) -> Id:
             """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields. accept:
             a function of time, 0 and the state, called after each accepted step."""
-            told = fields.pop("accept", None)
+            accept = fields.pop("accept", None)
             definition = struct(ForceDef, definition, fields)
-            if told is not None:
-                definition.accept = self._keep.accept(told, definition.state_count)
+            if accept is not None:
+                definition.accept = self._keep.accept(accept, definition.state_count)
             if definition._function is not None:
                 definition.callback = self._keep.force(definition._function, definition.provides, definition.state_count)
             return self._add("force", ForceDef, definition, {})
