@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "drillmbd/analyse.h"
+#include "drillmbd/run.h"
 #include "fields/table.h"
 #include "force/actuator_law.h"
 #include "force/friction_law.h"
@@ -14,6 +16,12 @@
 DMB_DESCRIBED(DMB_DEFAULTS)
 DMB_DESCRIBED(DMB_TABLE) /* NOLINT(bugprone-sizeof-expression): pointers are fields, too */
 const dmb_field_list dmb_field_lists[DMB_FIELD_LISTS] = {DMB_DESCRIBED(DMB_LIST)};
+
+#define DMB_OPTIONS_LIST(number, T, word, kind, oldest, FIELDS) \
+    const dmb_field_list T##_list = DMB_LIST_OF(number, T, word, kind, oldest);
+DMB_OPTIONS(DMB_DEFAULTS)
+DMB_OPTIONS(DMB_TABLE) /* NOLINT(bugprone-sizeof-expression): pointers are fields, too */
+DMB_OPTIONS(DMB_OPTIONS_LIST)
 
 /* ---- Values ------------------------------------------------------------------------------------------------------ */
 
