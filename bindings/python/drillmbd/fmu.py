@@ -352,7 +352,7 @@ def description(scene: Scene, version: int, identifier: str, token: str, found: 
 
 
 # ---- Source code -----------------------------------------------------------------------------------------------------
-OPTIONS = "-ffp-contract=off -fno-math-errno -I/usr/include/suitesparse"
+OPTIONS = "-ffp-contract=off -fno-math-errno"
 
 
 def find_sources(folder: Any = None) -> pathlib.Path:
