@@ -139,6 +139,24 @@ class Fields(unittest.TestCase):
                 checked += 1
         self.assertGreater(checked, 80)
 
+    def test_ends_of_ranges(self):
+        """The loader of scene files accepts both ends of a range and refuses the next number beyond each."""
+        checked = 0
+        for struct in (one for one in vars(_structs).values() if isinstance(one, type) and getattr(one, "bounds", None)):
+            for key, field in fields_of(struct).items():
+                if field.bound is None:
+                    continue
+                kind, low, high = field.bound
+                inside = [math.nextafter(low, math.inf)] if kind == "above" else [low, high]
+                outside = [low, math.inf] if kind == "above" else [math.nextafter(high, math.inf)]
+                outside += [math.nextafter(low, -math.inf)] if low > 0.0 and kind != "above" else []
+                for value in inside:
+                    self.assertEqual(field.outside(value), "", f"{struct.__name__}.{key} = {value!r}")
+                for value in (*outside, math.nan):
+                    self.assertIn("must be", field.outside(value), f"{struct.__name__}.{key} = {value!r}")
+                checked += 1
+        self.assertGreater(checked, 80)
+
     def test_words_of_keys(self):
         """A key of a scene file has the words of the enumeration by which the list of fields bounds it."""
         checked = 0
