@@ -157,7 +157,7 @@ class LastPart:
         self.sim.run_noting(self.end, 0.5 * self.step, again)
         out.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, "
                 f"{500.0 * self.step:g} ms; largest magnitudes:")
-        told: dict[str, Any] = {}
+        outputs: dict[str, Any] = {}
         changed: list[str] = []
         units = out.units
         heads = self.recorder.columns if units.name == "si" else ["", *self.scene.output_heads()]
@@ -165,14 +165,14 @@ class LastPart:
             first, second = (float(abs(one.table[:, column]).max()) for one in (self.recorder, again))
             larger = max(first, second)
             change = (second - first) / larger if larger > 0.0 else 0.0
-            told[name] = {"step": first, "half_step": second, "change": change}
+            outputs[name] = {"step": first, "half_step": second, "change": change}
             head, factor = heads[column], units.factor_of(heads[column])
             out.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} "
                     f"({100.0 * change:+.2g} %)")
             if abs(change) > NOTABLE:
                 changed.append(name)
         out.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step,
-                                       "outputs": told}
+                                       "outputs": outputs}
         if changed:
             out.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more "
                           f"than {100.0 * NOTABLE:g} %; run "

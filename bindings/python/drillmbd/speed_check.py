@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 MOST_SPEEDS, PROCESSES, PLACES = 100, 2, 20
 OSCILLATING = (enums.SEGMENT_HARMONIC, enums.SEGMENT_PERIODIC, enums.SEGMENT_PER_REVOLUTION)  #: kinds of segments
 RAMP = 2.0              #: [s] of rotation and feed, and then of the loads on bits
-WINDOW = 4.0            #: [s] that is judged, at least
+WINDOW = 4.0            #: [s] that is assessed, at least
 REVOLUTIONS = 3         #: in it, at least
 PERIODS = 3             #: of the slowest torsional vibration, fixed at the rig, in it and before it, at least
 SWING = 0.5             #: [-] half the range of the torque over its mean, above which it swings

@@ -32,7 +32,7 @@ static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chai
     out->factors.lower = take(arena, layout->link[layout->n - 1]);
     out->factors.upper = take(arena, layout->link[layout->n - 1]);
     out->factors.pivot = DMB_ARENA_ARRAY(arena, uint32_t, linear->rows);
-    out->told = take(arena, linear->rows);
+    out->prescribed = take(arena, linear->rows);
     dmb_jointed_chains_lay_out(arena, linear, links, &out->links);
 }
 
@@ -136,18 +136,18 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth,
 void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const size_t bytes = s->linear->rows * sizeof(double);
-    memcpy(s->told.re, x.re, bytes);
-    memcpy(s->told.im, x.im, bytes);
+    memcpy(s->prescribed.re, x.re, bytes);
+    memcpy(s->prescribed.im, x.im, bytes);
     memset(x.re, 0, bytes);
     memset(x.im, 0, bytes);
-    dmb_dynamic_subtract(s, s->told, x);
+    dmb_dynamic_subtract(s, s->prescribed, x);
 }
 
 void dmb_dynamic_add_prescribed(const dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     for (uint32_t r = 0; r < s->linear->rows; r++) {
-        x.re[r] += s->told.re[r];
-        x.im[r] += s->told.im[r];
+        x.re[r] += s->prescribed.re[r];
+        x.im[r] += s->prescribed.im[r];
     }
 }
 

@@ -168,8 +168,8 @@ void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_
     dmb_dynamic_stiffness *s = group->stiffness;
     const size_t bytes = s->linear->rows * sizeof(double);
     go_to(group, frequency);
-    memcpy(s->told.re, x.re, bytes);
-    memcpy(s->told.im, x.im, bytes);
+    memcpy(s->prescribed.re, x.re, bytes);
+    memcpy(s->prescribed.im, x.im, bytes);
     copy_from(group, frequency, column, 0, s->linear->rows, x);
     if (s->linear->scene.cluster_count > 0) {
         copy_from(group, frequency, column, s->linear->rows, s->links.count, s->links.solution);

@@ -336,9 +336,9 @@ typedef struct dmb_dynamic_stiffness {
     const dmb_linear *linear;
     double structural_damping;        /* [-] eta */
     double omega;                     /* [rad/s] of the present factors */
-    double growth;                    /* [1/s] likewise; 0 of a response */
+    double growth;                    /* [1/s] of the present factors; 0 of a response */
     dmb_complex_block_matrix factors; /* of chains without joints */
-    dmb_complex_array told;           /* p, shape (rows) */
+    dmb_complex_array prescribed;     /* p, shape (rows) */
     dmb_jointed_chains links;
     void *block;
     size_t block_size;

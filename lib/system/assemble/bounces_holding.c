@@ -79,7 +79,7 @@ static double turn_of(const dmb_sim *sim, uint32_t node, double h, int reached)
     return reached ? dmb_vec3_norm(z + 3) : h * dmb_vec3_norm(sim->now.velocity + sim->scene->layout.row[node] + 3);
 }
 
-/* [rad] Rotation of the line of a spring, likewise. */
+/* [rad] Rotation of the line of a spring in the same time. */
 static double turn_of_line(const dmb_sim *sim, uint32_t spring, double h, int reached)
 {
     dmb_spring_motion a, b;

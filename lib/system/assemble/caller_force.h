@@ -21,7 +21,7 @@ int32_t dmb_assemble_caller_forces(dmb_evaluation *evaluation);
 int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force);
 /* "force 2 (magnet)", the force whose callback failed in the last evaluation; clears the record. 0: none failed. */
 int dmb_failed_force(dmb_sim *sim, dmb_message *text);
-/* Tells the accept functions of the callers' laws the accepted state. */
+/* Calls the accept functions of the callers' laws with the accepted state. */
 void dmb_caller_laws_accept(const dmb_sim *sim);
 /* [J] Sum of the potentials given by the callbacks. */
 double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration *configuration);

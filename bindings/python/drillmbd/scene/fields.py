@@ -22,7 +22,7 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
-UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment stands for several fields
+UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment is of several fields
 MOST_WORDS = 10  #: that are listed where another one is written
 LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_table_speed", "friction_table_mu",
             "friction_state_count", "friction_callback", "friction_context", "friction_accept", "state_count", "accept", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
