@@ -4,12 +4,12 @@
 #include "ask.h"
 DMB_C_BEGIN
 
-/* Analyses see the accepted state of a sim and leave it as it is unless they say otherwise; the sim has their message. Results
- * are opaque: _destroy gives their memory back, sets the pointer to NULL and accepts NULL. options and report may be NULL. Memory
- * comes from the sim's allocator, until _destroy or the end of the call. One thread at a time has a sim or a result. Errors of
- * every function of this header: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _ORDER (within a call on the
+/* Analyses use the accepted state of a sim and leave it unchanged unless stated otherwise; the sim has their message. Results are
+ * opaque: _destroy gives their memory back, sets the pointer to NULL and accepts NULL. options and report may be NULL. Memory
+ * comes from the sim's allocator, until _destroy or the end of the call. One thread at a time may use a sim or a result. Errors
+ * of every function of this header: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _ORDER (within a call on the
  * sim), _NO_MEMORY; of those that take a sim that is not const also _CALLBACK, _CANCELLED, _ROTATION, _GEOMETRY, _SINGULAR,
- * _NO_CONVERGENCE as of a step. Results are NULL then, and arrays and reports as before. Further ones stand at each function.
+ * _NO_CONVERGENCE as of a step. Results are NULL then, and arrays and reports as before. Functions list further ones.
  *
  * Same bits: steps and all that is read off a state have the same bits in any number of threads; so have statics, paths,
  * buckling, responses, stepped sine and safe speeds, which call no BLAS. Modes, and `condition` of a model check, have LAPACK's
@@ -90,26 +90,26 @@ typedef struct dmb_buckling_options {
     int32_t scale; /* DMB_SCALE_..., default DMB_SCALE_LOADS */
     int32_t follow; /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone */
     dmb_id part; /* load or drive of DMB_SCALE_PART */
-    double factor_max, tolerance; /* [unit of the factor; -] not looked beyond, > 0; of factors, 1e-15 .. 0.1; default 1e12,
-        1e-10 */
+    double factor_max, tolerance; /* [unit of the factor; -] largest factor that is sought, > 0; relative, of factors, 1e-15 ..
+        0.1; default 1e12, 1e-10 */
     double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): moves the string by a millionth
         of an element */
     double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options, the stiffness is unsymmetric then */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
-/* Reason for the end of the way along the equilibria. */
+/* Reason why path following ended. */
 enum {
-    DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
+    DMB_BUCKLING_EXTRAPOLATED = 0, /* no path was followed: follow = 0, or nothing buckles about the present state */
     DMB_BUCKLING_BIFURCATION = 1, /* an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable */
     DMB_BUCKLING_LIMIT = 2, /* the factor is at a maximum of the path, or a contact that opens turns it back */
     DMB_BUCKLING_STABLE = 3, /* none: det K keeps its sign up to `reached` */
     DMB_BUCKLING_DIP = 4 /* no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its
         largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do */
 };
-/* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are found at
- * the points of the way, a twentieth of the lowest factor apart at most. */
+/* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are computed
+ * at the points of the path, at most a twentieth of the lowest factor apart. */
 enum {
-    DMB_FLUTTER_NOT_JUDGED = 0, /* K is symmetric all the way, which allows none; friction is assumed to slip; the way is not
+    DMB_FLUTTER_NOT_JUDGED = 0, /* K is symmetric on the whole path, which allows none; friction is assumed to slip; no path is
         followed and no mode grows in the present state; no modes found (message) */
     DMB_FLUTTER_NONE = 1, /* none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows */
     DMB_FLUTTER_FOUND = 2 /* one grows from flutter_factor on */
@@ -188,7 +188,7 @@ typedef struct dmb_path_options {
     dmb_place place; /* place that is watched; part {0, 0} (default): none */
     int32_t component; /* of its displacement in the world, DMB_X (default) .. DMB_Z */
     int32_t branch; /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
-    double factor_end; /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
+    double factor_end; /* [unit of the factor] where the path ends and towards which it begins, not 0; default 1 */
     double displacement_end; /* [m] ends there; default DMB_UNLIMITED: nowhere */
     double first_step, step_max; /* [unit of the factor; m] > 0, 0: factor_end/10; longest arc, > 0; default 0, DMB_UNLIMITED */
     double branch_size; /* [m] arc of the first step on a branch; 0 (default): that of the step before */
@@ -413,7 +413,7 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * that nothing holds there; a motion drive at frequency 0), _UNSUPPORTED (axes at rest with a load across a part that turns with
  * it; an output that is a magnitude, sum over the string, count, energy or work: the message names it). Cost: O(points (elements
  * + joints + excitations)); of joints that share bodies the cube of their coordinates. The sim need not outlive the response;
- * responses of one sim may not be computed at a time. */
+ * responses of one sim may not be computed at the same time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_excitation *excitations,
                                       uint32_t excitation_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);
@@ -447,10 +447,10 @@ typedef struct dmb_stepped_sine_options {
 DMB_SIZED_STRUCT(dmb_stepped_sine_options)
 typedef struct dmb_stepped_sine_report {
     uint32_t struct_size;
-    int32_t settled; /* 1 if it was */
+    int32_t settled; /* 1: the amplitudes settled; 0: they did not */
     uint32_t windows, rejected; /* [-] run; steps tried and not accepted */
     uint64_t steps; /* [-] accepted */
-    double change, remaining; /* [-] between the last two windows, worst output; estimated still to come */
+    double change, remaining; /* [-] change between the last two windows, worst output; estimated remaining change */
     double time; /* [s] reached */
 } dmb_stepped_sine_report;
 DMB_SIZED_STRUCT(dmb_stepped_sine_report)
@@ -486,8 +486,8 @@ typedef struct dmb_speeds_options {
     double threshold, margin; /* [-] severity above which a speed is to be avoided, > 0; by which bands are wider on both sides,
         part of the speed, 0 .. 0.5; default 1, 0.03 */
     uint32_t refinement; /* [-] as of a response, for each order; default 12 */
-    int32_t contact; /* these as of a response, but for friction, default 0: a string that turns slides, */
-    int32_t friction, reserved; /* and sliding has next to no slope */
+    int32_t contact; /* DMB_CONTACT_..., as of a response */
+    int32_t friction, reserved; /* 1: as of a response; 0 (default): left out: while a string turns, its slope is close to 0 */
     double contact_gap, structural_damping, equilibrium_tolerance; /* [m; -; -] as of a response, same defaults */
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
     const void *unused; /* NULL */

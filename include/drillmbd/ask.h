@@ -123,7 +123,7 @@ typedef struct dmb_joint_state {
     int32_t state; /* DMB_JOINT_... */
     uint32_t constraint_rows, redundant, reserved; /* [-] equations it holds now; of them dropped because others imply them */
     double position[6], speed[6]; /* [m, rad; m/s, rad/s] coordinates, RX and RY over full turns, and their rates */
-    double acceleration[6]; /* [m/s2, rad/s2] the rates of those */
+    double acceleration[6]; /* [m/s2, rad/s2] rate of `speed` */
     double reaction[6]; /* [N, N m] force and moment of the constraint on b from a, at the origin of b; redundant: of least
         norm */
     double action[6]; /* [N, N m] generalised force of springs, dampers, stops and friction on the coordinates */
@@ -142,7 +142,7 @@ typedef struct dmb_bit_state {
     double weight, torque; /* [N; N m] weight on bit, >= 0; torque on bit, against the rotation, from the rock law */
     double load; /* [N] bottom-hole load of the time function */
     double side_force[3]; /* [N] of the rock on the bit across its axis (side_cutting), world frame */
-    double side_speed; /* [m/s] it is cut sideways at, across its axis */
+    double side_speed; /* [m/s] of the lateral cut, across its axis */
 } dmb_bit_state;
 DMB_SIZED_STRUCT(dmb_bit_state)
 DMB_API int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state);
@@ -300,7 +300,7 @@ typedef struct dmb_recorder {
     double *table; /* shape (capacity, 1 + output_count); the caller's */
     uint64_t capacity, row_count; /* [-] rows of table; rows written, start with 0 */
     double interval; /* [s] between samples, 0: every call */
-    const dmb_window *window; /* of the outputs of a window, fed by the caller before; default NULL */
+    const dmb_window *window; /* of outputs of a window; dmb_window_take comes before dmb_recorder_take; default NULL */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)
 /* Call it after every step: writes a row if its time has come. DMB_NOTE_FULL when the table has no room; DMB_ERR_ORDER before the
@@ -325,7 +325,7 @@ DMB_API int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const d
 typedef struct dmb_spring_state {
     uint32_t struct_size, reserved;
     double length, elongation; /* [m] between its points, and beyond its free length */
-    double speed, force; /* [m/s; N] the elongation grows at; tension > 0: sum of the next two */
+    double speed, force; /* [m/s; N] rate of the elongation; tension > 0: sum of the next two */
     double elastic, damper; /* [N] */
     double energy; /* [J] stored, from the free length on, or from where a one-sided one is slack */
     double direction[3]; /* [-] from a to b, world frame */
@@ -463,14 +463,14 @@ DMB_API int32_t dmb_output_next(int32_t quantity);
 /* "drive_force of drive table [N m]", "axial_force of string main pipe 3 at 0.5 [N]": into the caller's text of `size` [byte],
  * ends with 0; 128 suffice. sim may be NULL: parts by their numbers. Errors: DMB_ERR_TOO_LARGE (room). */
 DMB_API int32_t dmb_output_text(const dmb_sim *sim, const dmb_output *output, char *text, uint32_t size);
-/* Whether this sim has each output; dmb_sim_message names the first that it has not, and a valid place. Errors as
+/* Checks that this sim has each output; dmb_sim_message names the first missing one, and a valid place. Errors as
  * dmb_query_output. */
 DMB_API int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count);
 
 /* ---- A window over outputs ----------------------------------------------------------------------------------------
- * Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into
- * slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index
- * of the bit speed and the off-bottom share are numbers of such windows. */
+ * Minimum, maximum and mean of outputs over the last `length` seconds of a run, in memory that does not grow: time is divided
+ * into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip
+ * index of the bit speed and the off-bottom share are numbers of such windows. */
 typedef struct dmb_window_options {
     uint32_t struct_size, slots; /* [-] 2 .. 65536; the window covers (slots - 1)/slots to all of `length`; default 100 */
     double length; /* [s] >= 0; 0 (default): all since the first sample */
@@ -481,14 +481,14 @@ typedef struct dmb_window_result {
     uint32_t struct_size, reserved;
     uint64_t samples; /* [-] in the window */
     double time; /* [s] that it spans; 0 with one sample: means are the sample then */
-    double minimum, maximum; /* [unit of the output] of the samples, NaN, as all that follow, without one */
+    double minimum, maximum; /* [unit of the output] of the samples, NaN without one, as are the members below */
     double mean, rms; /* [unit of the output] over time; root of the mean of the squares over time */
     double index; /* [-] (maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0
         where nothing varies, infinite about a mean of 0 */
     double low_share; /* [-] of the time, |value| <= its level, by the sample at the end of each interval */
 } dmb_window_result;
 DMB_SIZED_STRUCT(dmb_window_result)
-/* outputs, shape (output_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a output and slot. options
+/* outputs, shape (output_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes per output and slot. options
  * may be NULL. Errors: those of dmb_output_check, DMB_ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then. */
 DMB_API int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *options, const dmb_output *outputs,
                                   uint32_t output_count, dmb_window **window);

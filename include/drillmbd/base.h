@@ -150,11 +150,11 @@ typedef struct dmb_allocator {
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
-/* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes
- * of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps
- * join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was
- * given out. In a full pool, calls that need memory give DMB_ERR_NO_MEMORY and change nothing. Errors, which leave *allocator
- * unchanged: DMB_ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses). */
+/* An allocator that uses only the caller's memory: for firmware without a heap. memory: the pool itself takes 64 bytes of it; it
+ * must remain valid while a model or sim uses it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64
+ * bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given out. In a full pool,
+ * calls that need memory give DMB_ERR_NO_MEMORY and change nothing. Errors, which leave *allocator unchanged: DMB_ERR_NULL,
+ * _VALUE (size < 256, or beyond the end of the addresses). */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
 /* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0
  * for any other allocator. Cannot fail. */
@@ -166,10 +166,10 @@ DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
 typedef struct dmb_error {
     uint32_t struct_size;
     int32_t status; /* DMB_ERR_...; 0: no call of this thread has failed */
-    uint32_t number, component; /* [-] of the part among those of its kind, of a field that is an array (DMB_NONE: it has none) */
+    uint32_t number, component; /* [-] number of the part in its kind; index in an array field (DMB_NONE: there is none) */
     double value, low, high; /* [unit of the field] refused value and its range; NaN: no number, no range */
-    char part[128]; /* "string 0 (main), pipe 12 (collars)", as in the message; all texts end with 0 */
-    char kind[32], name[24]; /* "pipe", "collars": of the innermost part ("" as all that a failure does not have) */
+    char part[128]; /* "string 0 (main), pipe 12 (collars)", as in the message. All texts end with 0; "": there is none */
+    char kind[32], name[24]; /* "pipe", "collars": of the innermost part */
     char field[64]; /* "outer_diameter" */
     char given[96]; /* the value as text: "0.07", "(1, 2, 3)" */
     char bound[256]; /* "be finite and > inner_diameter (0.08)"; a bound after > or < is not in the range */

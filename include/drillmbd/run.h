@@ -7,7 +7,7 @@ DMB_C_BEGIN
 typedef struct dmb_sim dmb_sim; /* one simulation of a compiled scene */
 /* One thread at a time. Errors of every function of this header, which change nothing: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE,
  * _VALUE, _ORDER (within a call on the sim); of ids and numbers _ID, _NOT_FINITE. Reports may be NULL. Steps, inputs and
- * snapshots allocate nothing. Further ones stand at each function. */
+ * snapshots allocate nothing. Further errors are listed at each function. */
 
 enum {
     DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */
@@ -61,7 +61,7 @@ DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options,
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size, dmb_sim **sim);
 /* Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe. */
 DMB_API void dmb_sim_destroy(dmb_sim **sim);
-/* Message of the last failing or noteworthy call on this sim, of questions the thread's own. Never NULL; until the next call. */
+/* Message of the last call on this sim that failed or has a note; of queries, of this thread. Never NULL; until the next call. */
 DMB_API const char *dmb_sim_message(const dmb_sim *sim);
 DMB_API double dmb_sim_time(const dmb_sim *sim); /* [s] of the last accepted state; NaN for NULL */
 
@@ -130,10 +130,10 @@ DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);
 DMB_API int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash);
 
 /* ---- Inputs ----------------------------------------------------------------------------------------------------- */
-/* From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are
- * adapted to jumps. The energy of weight that a change of density adds is work of loads. Setting a value again does nothing.
- * DMB_NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors: DMB_ERR_VALUE (bounds; limits of a drive), _CALLBACK,
- * _SINGULAR, _UNSUPPORTED. O(elements). */
+/* From now on the inputs, shape (count), have these values, or approach them within their rate limits; all are set or none.
+ * Accelerations are adapted to jumps. The energy of weight that a change of density adds is work of loads. Setting a value again
+ * does nothing. DMB_NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors: DMB_ERR_VALUE (bounds; limits of a drive),
+ * _CALLBACK, _SINGULAR, _UNSUPPORTED. O(elements). */
 DMB_API int32_t dmb_sim_set_input(dmb_sim *sim, dmb_id input, double value);
 DMB_API int32_t dmb_sim_set_inputs(dmb_sim *sim, const dmb_id *inputs, const double *values, uint32_t count);
 typedef struct dmb_input_state {
@@ -141,20 +141,20 @@ typedef struct dmb_input_state {
     int32_t is_set; /* 0: its time function is in force, since it was not set yet */
     double value; /* [unit] set point; of a time function its value now */
     double present, rate; /* [unit; unit/s] in force now, changing towards `value` */
-    double arrives; /* [s] time at which it is or was there; 0 of a time function */
+    double arrives; /* [s] time at which `present` reaches or reached `value`; 0 with a time function */
 } dmb_input_state;
 DMB_SIZED_STRUCT(dmb_input_state)
 DMB_API int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state);
 /* Frozen. One line of the log of inputs. */
 typedef struct dmb_input_record {
-    double time, value; /* [s; unit of the input] of the sim; as taken, clamped where it was */
+    double time, value; /* [s; unit of the input] time of the sim; value that was set, after clamping */
     uint32_t input; /* [-] number of the input in the order of description */
     uint32_t call; /* [-] number of the call that set it: those of one call are set at once */
 } dmb_input_record;
 /* From now on set points go into `records`, shape (capacity), which the caller keeps alive; NULL with 0: no more. A call beyond
  * the capacity still sets its value: DMB_NOTE_FULL. The log is neither saved in snapshots nor hashed. */
 DMB_API int32_t dmb_sim_record_inputs(dmb_sim *sim, dmb_input_record *records, uint32_t capacity);
-DMB_API uint32_t dmb_sim_recorded_inputs(const dmb_sim *sim); /* [-] since then; 0 for a handle of no sim */
+DMB_API uint32_t dmb_sim_recorded_inputs(const dmb_sim *sim); /* [-] records since then; 0 for an invalid handle */
 /* Sets the values of the log from record *next on up to the present time, call by call, and moves *next beyond them. Called
  * before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Notes and errors as
  * dmb_sim_set_inputs, with *next at the call that was refused; DMB_ERR_VALUE too for times that decrease. */
@@ -165,8 +165,8 @@ typedef struct dmb_event_report {
     uint32_t struct_size, count; /* [-] events reported: those within the tolerance of the first count as simultaneous */
     uint64_t events; /* [-] bit i: event number i in the order of description is reported */
     double time; /* [s] reached */
-    double located; /* [s] at most so long after the crossing; 0 without an event, and where a `hold` ends; of
-        dmb_sim_steps_to_event the length of the step, which holds the crossing or the end of the hold */
+    double located; /* [s] bound of the time from the crossing to `time`; 0 without an event, and where a `hold` ends; of
+        dmb_sim_steps_to_event the length of the step that contains the crossing or the end of the hold */
     double crossing; /* [s] time of the crossing, of the first of several, before its `hold`; NaN without an event */
 } dmb_event_report;
 DMB_SIZED_STRUCT(dmb_event_report)

@@ -10,7 +10,7 @@ typedef struct dmb_model dmb_model; /* a scene: described, then compiled */
  * _HANDLE, _STRUCT_SIZE, _ORDER (of a compiled model, but for its questions; within a call on it); of those that add or set parts
  * also _VALUE, _NOT_FINITE, _ID, _TOO_LARGE, _NO_MEMORY: nothing is added then, the id is left as it was, and the message names
  * part, field, value and bounds. They copy the definition and all it points to; the id may be NULL. Parts may be added in any
- * order in which the ids exist that they name. Further ones stand at each function. */
+ * order in which the ids exist that they name. Further errors are listed at each function. */
 
 typedef struct dmb_model_options {
     uint32_t struct_size, reserved;
@@ -23,9 +23,9 @@ typedef struct dmb_model_options {
 DMB_SIZED_STRUCT(dmb_model_options)
 /* Creates an empty model. options may be NULL. Errors: DMB_ERR_NO_MEMORY; *model is NULL then. */
 DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model);
-/* Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do,
- * copies of the handle are refused (DMB_ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that
- * describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER. NULL-safe. */
+/* Releases the caller's reference and sets *model to NULL; sims made from the model keep it alive. There is one reference: while
+ * they do, copies of the handle are refused (DMB_ERR_HANDLE) and destroying them does nothing. Within a call that describes or
+ * compiles the model (from its allocator or log) it does nothing either, and other calls give DMB_ERR_ORDER. NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
 /* Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of a compiled
  * model, and of questions, each thread reads the failure of its own calls. */
@@ -93,9 +93,9 @@ typedef struct dmb_environment_def {
     double added_mass; /* [-] of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; DMB_NOT_GIVEN: (D^2 +
         d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, and tool
         joints are spread over their pipe; stabilisers: of the mud they displace beyond the pipe. 0 (default): no inertia */
-    double flow_rate; /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the annulus,
-        concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of
-        its own sideways. 0 (default): mud rests */
+    double flow_rate; /* [m3/s] of mud down the string, the only one of the model, which follows its hole, and back in a
+        concentric annulus with the diameters at the depth where the string is described. Gives drag, pressures and thrust of the
+        nozzles (dmb_query_flow), no lateral inertia. 0 (default): mud at rest */
     double consistency; /* [Pa s] K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0 */
     double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress */
     double yield_stress; /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
@@ -185,12 +185,12 @@ enum {
 typedef struct dmb_friction_at {
     double normal_force; /* [N] >= 0 */
     double slip[2], slip_before[2]; /* [m/s] of the pipe over the wall; at the last accepted time */
-    double mu_static, mu_dynamic; /* [-] of the wall or section, times inputs, which a law may leave aside */
+    double mu_static, mu_dynamic; /* [-] of the wall or section, times inputs (a law need not use them) */
 } dmb_friction_at;
 /* The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by slip and
  * normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the point and 0 whenever
- * it begins to touch. memory->step = INFINITY asks for sliding on and on at this slip, from any state: statics that slip, linear
- * analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the thread of the call. */
+ * it begins to touch. memory->step = INFINITY asks for the friction of steady sliding at this slip, from any state: statics that
+ * slip, linear analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the thread of the call. */
 typedef int32_t (*dmb_friction_fn)(void *context, const dmb_friction_at *at, double force[2], double by_slip[4],
                                    double by_normal[2], const dmb_law_memory *memory);
 typedef struct dmb_wall_def {
@@ -241,8 +241,8 @@ DMB_API int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dm
 
 /* ---- Sections of the hole --------------------------------------------------------------------------------------- */
 enum {
-    DMB_HOLE_STEP = 0, /* the values hold up to the next section, or on and on */
-    DMB_HOLE_LINE = 1 /* they go in straight lines to those of the next section */
+    DMB_HOLE_STEP = 0, /* the values hold up to the next section, or to the end of the hole */
+    DMB_HOLE_LINE = 1 /* they vary linearly to those of the next section */
 };
 /* A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold; a field left
  * at DMB_NOT_GIVEN is that of dmb_wall_def, as are the laws and all other values everywhere. Values change smoothly within
@@ -363,13 +363,13 @@ typedef struct dmb_body_def {
     double position[3], rotation[3]; /* [m; rad] reference point and rotation vector of a free body, world frame; default 0 */
     double velocity[6]; /* [m/s, rad/s] of a free body at time 0, body frame; default 0 */
     int32_t free_mask, reserved; /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
-    double contact_diameter, contact_length; /* [m] of the contact ring at the reference point, 0: none; length of wall it stands
-        for, > 0; default 0, 1 */
+    double contact_diameter, contact_length; /* [m] of the contact ring at the reference point, 0: none; length of wall that it
+        represents, > 0; default 0, 1 */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
     double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
-    double added_mass[2]; /* [kg] of mud that goes along with it where it speeds up along body x, and across, at the x of the
-        centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3
-        rho r^3). No weight; >= 0; default 0 */
+    double added_mass[2]; /* [kg] added mass of the mud along body x and across, at the x of the centre of mass, as of a body of
+        revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). It has no weight; >= 0;
+        default 0 */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -399,10 +399,10 @@ typedef struct dmb_bit_def {
         0; default 1e-4, 0 */
     uint32_t blades, history; /* [-] 1 .. 64; samples of the cut surface, of REGENERATIVE, 64 .. 2^20; default 4, 1024 */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
-    double side_cutting; /* [-] steerability: depth that a side force cuts a revolution over the depth that the same force cuts
-        along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not,
-        with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it
-        leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
+    double side_cutting; /* [-] steerability: depth of cut per revolution by a side force over that by the same axial force, d =
+        F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, on and off bottom, with any rock_law; the
+        smaller, the more it drills along its own axis. The hole that it cuts does not act on the string: give the bit no
+        `diameter`. No effect in statics at rest. 0 (default): no lateral force of the rock */
     double walk_angle; /* [rad] from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that
         is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0 */
     double displaced_volume; /* [m3] as of a body */
@@ -475,9 +475,9 @@ typedef struct dmb_joint_def {
 DMB_SIZED_STRUCT(dmb_joint_def)
 /* DMB_ERR_VALUE for a part joined to itself, an axis of zero length, two grounds. */
 DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *joint);
-/* Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two
- * revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its
- * ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes. */
+/* A linear relation of two to four joint coordinates: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two
+ * revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one are subtracted too, each
+ * times its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes. */
 typedef struct dmb_coupling_def {
     uint32_t struct_size;
     int32_t reserved;
@@ -543,8 +543,8 @@ typedef struct dmb_drive_def {
     uint32_t curve_count; /* [-] points of the torque-speed curve: 0 (none) or 2 .. 8 */
     int32_t reserved2;
     double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
-    double curve_force[8]; /* [N, N m] >= 0: the most that it pushes towards > 0 at a speed, straight between points, constant
-        beyond; the same mirrored towards < 0; shape (curve_count) */
+    double curve_force[8]; /* [N, N m] >= 0: largest force towards > 0 at a speed, linear between points, constant beyond;
+        mirrored for forces < 0; shape (curve_count) */
     uint32_t gain_count; /* [-] points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16 */
     int32_t reserved3;
     double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
@@ -641,7 +641,7 @@ typedef struct dmb_stuck_def {
     int32_t holds; /* mask of DMB_STUCK_...; default AXIAL and ROTATION */
     char name[24]; /* for messages, ends with 0; default "" */
     dmb_place place; /* of a pipe, or a body or bit; required */
-    int32_t stuck, reserved; /* 1: from time 0 on, in the pose there (default); 0: not yet */
+    int32_t stuck, reserved; /* 1 (default): from time 0 on, in the pose at time 0; 0: free until an input sets it */
     double stiffness[3]; /* [N/m, N m/rad, N/m] along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9 */
     double damping[3]; /* [N s/m, N m s, N s/m] >= 0; not there without DMB_FEATURE_DAMPING; default 0 */
     double overpull, overtorque; /* [N; N m] axial force, pull or push; torque, either way, at which it is released, > 0,
@@ -657,7 +657,7 @@ DMB_API int32_t dmb_model_add_stuck(dmb_model *model, const dmb_stuck_def *def, 
 typedef struct dmb_motor {
     uint32_t struct_size;
     int32_t brakes; /* 1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there */
-    double stall_torque, displacement; /* [N m; m3] at w = 0, and the most it gives; of mud a revolution; > 0 */
+    double stall_torque, displacement; /* [N m; m3] at w = 0, the largest, > 0; volume of mud per revolution, > 0 */
     double flow; /* [m3/s] through the motor, > 0 */
     double pressure; /* [Pa] drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure */
     double efficiency; /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
@@ -673,8 +673,8 @@ DMB_SIZED_STRUCT(dmb_motor)
 DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
 /* A sub: a body in the middle of a string (stabiliser, motor, jar, sensor) at the far end of the string as it is described so
  * far, and the section of pipes that continues the string `length` further along the body's x axis (examples/programming, Parts
- * on strings). The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset,
- * start_free (all free) and places of joints; frames a of joints are in the axes of the string's end. */
+ * on strings). Of the structs pointed to, poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and
+ * places of joints are ignored; frames a of joints are in the axes of the string's end. */
 typedef struct dmb_sub_def {
     uint32_t struct_size, reserved;
     dmb_id string; /* with its pipes so far, end_free DMB_FREE_ALL; {0, 0}: the model's first */
@@ -691,7 +691,7 @@ typedef struct dmb_sub {
     dmb_place end; /* of the string, that `before` joins to the body */
 } dmb_sub;
 DMB_SIZED_STRUCT(dmb_sub)
-/* All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are DMB_ERR_ORDER, and so is
+/* Adds all parts or none. The string then ends there: dmb_model_add_pipes and _add_bit to it are DMB_ERR_ORDER, and so is
  * dmb_model_add_wall after a sub of a string that would follow the hole. Errors: DMB_ERR_ORDER (no pipes yet, a bit at the end,
  * continued already), _GEOMETRY (survey). */
 DMB_API int32_t dmb_model_add_sub(dmb_model *model, const dmb_sub_def *def, dmb_sub *sub);
@@ -744,17 +744,17 @@ typedef struct dmb_input_info {
     double low, high, rate_limit, slope_limit; /* bounds in force: the narrower of its own and those of the target */
 } dmb_input_info;
 DMB_SIZED_STRUCT(dmb_input_info)
-/* [-] inputs described so far; 0 for a bad handle. Number `index` in that order, by name: DMB_ERR_ID for none. */
+/* [-] inputs described so far, 0 for an invalid handle; the input at `index` in that order, or of a name (DMB_ERR_ID: none). */
 DMB_API uint32_t dmb_model_input_count(const dmb_model *model);
 DMB_API int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_input_info *info);
 DMB_API int32_t dmb_model_find_input(const dmb_model *model, const char *name, dmb_id *input);
 
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
-/* Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped sine, state
- * space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of
- * stiffness 0 to a point off these gives length and speed as outputs; dmb_query_motion_at has its motion. */
+/* Frozen. A quantity at a place, for recorders, windows, events and the outputs of responses, stepped sine, state space and FMI
+ * units. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness
+ * 0 to a point off these gives length and speed as outputs; dmb_query_motion_at has its motion. */
 typedef struct dmb_output {
-    dmb_place place; /* where the quantity is one of a place */
+    dmb_place place; /* place or part that the quantity belongs to */
     int32_t quantity, reserved; /* DMB_OUTPUT_... */
 } dmb_output;
 /* An event is an output that crosses a level, evaluated at the ends of steps: a crossing and return within one step is missed.

@@ -298,7 +298,7 @@ FUNCTION_DOCS = {
     "dmb_analysis_place_rows":
         "A small motion of a place as a linear function of those of rows: component X .. RZ in the axes of `frame` (FRAME_WORLD, FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. Forces act by the same numbers.",
     "dmb_analysis_response":
-        "Transfer functions from every excitation to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (eq:response.direct). Outputs are small changes about it, of every OUTPUT_... that is linear in the motion; OUTPUT_VIBRATION .. are motions of a place in the axes of the analysis. Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the state, and section forces are given in axes that do not spin. Structural damping there is that of parts that do not turn. excitations, outputs: shapes (excitation_count), (output_count), 1 .. 1024 each, every excitation of the size that the first says. NOTE_INCOMPLETE: coefficients that change while parts turn, as of modes; results hold along and about the axes of straight parts, not across. Errors: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _SINGULAR (frequency and part that nothing holds there; a motion drive at frequency 0), _UNSUPPORTED (axes at rest with a load across a part that turns with it; an output that is a magnitude, sum over the string, count, energy or work: the message names it). Cost: O(points (elements + joints + excitations)); of joints that share bodies the cube of their coordinates. The sim need not outlive the response; responses of one sim may not be computed at a time.",
+        "Transfer functions from every excitation to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (eq:response.direct). Outputs are small changes about it, of every OUTPUT_... that is linear in the motion; OUTPUT_VIBRATION .. are motions of a place in the axes of the analysis. Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the state, and section forces are given in axes that do not spin. Structural damping there is that of parts that do not turn. excitations, outputs: shapes (excitation_count), (output_count), 1 .. 1024 each, every excitation of the size that the first says. NOTE_INCOMPLETE: coefficients that change while parts turn, as of modes; results hold along and about the axes of straight parts, not across. Errors: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _SINGULAR (frequency and part that nothing holds there; a motion drive at frequency 0), _UNSUPPORTED (axes at rest with a load across a part that turns with it; an output that is a magnitude, sum over the string, count, energy or work: the message names it). Cost: O(points (elements + joints + excitations)); of joints that share bodies the cube of their coordinates. The sim need not outlive the response; responses of one sim may not be computed at the same time.",
     "dmb_analysis_speeds":
         "Bands of rotary speed to avoid about the accepted state of a sim, by their severity: the sum over the orders of the largest amplitude of an output over its limit (eq:response.severity), by the linear response in axes at rest about the rotating state; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is the capacity, the struct_size of the first holds for all; on return the number of bands, by rising speed, NOTE_FULL where more were found. severity, shape (points), may be NULL: largest within half a step of the grid around each speed. NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors as dmb_analysis_response. Cost: that of order_count responses.",
     "dmb_analysis_state_space":
@@ -350,7 +350,7 @@ FUNCTION_DOCS = {
     "dmb_model_add_stuck":
         "dmb_model_compile refuses with ERR_VALUE (no such pipe), _UNSUPPORTED (axial-torsional).",
     "dmb_model_add_sub":
-        "All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are ERR_ORDER, and so is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: ERR_ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey).",
+        "Adds all parts or none. The string then ends there: dmb_model_add_pipes and _add_bit to it are ERR_ORDER, and so is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: ERR_ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey).",
     "dmb_model_add_time_function":
         "Adds a time function of segment_count segments (1 .. 64), each with the same struct_size.",
     "dmb_model_add_wall":
@@ -362,7 +362,7 @@ FUNCTION_DOCS = {
     "dmb_model_create":
         "Creates an empty model. options may be NULL. Errors: ERR_NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
-        "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
+        "Releases the caller's reference and sets *model to NULL; sims made from the model keep it alive. There is one reference: while they do, copies of the handle are refused (ERR_HANDLE) and destroying them does nothing. Within a call that describes or compiles the model (from its allocator or log) it does nothing either, and other calls give ERR_ORDER. NULL-safe.",
     "dmb_model_find":
         "The part of that name, of a kind or (PART_ANY) of all. Errors, which leave *part as it was: ERR_ID: there is none; _VALUE: parts of several kinds have it, give the kind.",
     "dmb_model_find_pipes":
@@ -374,7 +374,7 @@ FUNCTION_DOCS = {
     "dmb_model_get_name":
         "The name of a part into the caller's text, size [byte] >= NAME_SIZE; \"\" if it has none. ERR_ID, _VALUE.",
     "dmb_model_input_count":
-        "[-] inputs described so far; 0 for a bad handle. Number `index` in that order, by name: ERR_ID for none.",
+        "[-] inputs described so far, 0 for an invalid handle; the input at `index` in that order, or of a name (ERR_ID: none).",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of a compiled model, and of questions, each thread reads the failure of its own calls.",
     "dmb_model_part":
@@ -400,7 +400,7 @@ FUNCTION_DOCS = {
     "dmb_operation_usual":
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, 0.005 m/s while drilling; loads on the bit 0.",
     "dmb_output_check":
-        "Whether this sim has each output; dmb_sim_message names the first that it has not, and a valid place. Errors as dmb_query_output.",
+        "Checks that this sim has each output; dmb_sim_message names the first missing one, and a valid place. Errors as dmb_query_output.",
     "dmb_output_name":
         "\"bit_speed\", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change.",
     "dmb_output_next":
@@ -410,7 +410,7 @@ FUNCTION_DOCS = {
     "dmb_output_text":
         "\"drive_force of drive table [N m]\", \"axial_force of string main pipe 3 at 0.5 [N]\": into the caller's text of `size` [byte], ends with 0; 128 suffice. sim may be NULL: parts by their numbers. Errors: ERR_TOO_LARGE (room).",
     "dmb_pool_allocator":
-        "An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given out. In a full pool, calls that need memory give ERR_NO_MEMORY and change nothing. Errors, which leave *allocator unchanged: ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses).",
+        "An allocator that uses only the caller's memory: for firmware without a heap. memory: the pool itself takes 64 bytes of it; it must remain valid while a model or sim uses it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64 bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given out. In a full pool, calls that need memory give ERR_NO_MEMORY and change nothing. Errors, which leave *allocator unchanged: ERR_NULL, _VALUE (size < 256, or beyond the end of the addresses).",
     "dmb_pool_peak":
         "[byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0 for any other allocator. Cannot fail.",
     "dmb_profile_name":
@@ -492,7 +492,7 @@ FUNCTION_DOCS = {
     "dmb_sim_memory_size":
         "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled).",
     "dmb_sim_message":
-        "Message of the last failing or noteworthy call on this sim, of questions the thread's own. Never NULL; until the next call.",
+        "Message of the last call on this sim that failed or has a note; of queries, of this thread. Never NULL; until the next call.",
     "dmb_sim_record_inputs":
         "From now on set points go into `records`, shape (capacity), which the caller keeps alive; NULL with 0: no more. A call beyond the capacity still sets its value: NOTE_FULL. The log is neither saved in snapshots nor hashed.",
     "dmb_sim_replay_inputs":
@@ -500,7 +500,7 @@ FUNCTION_DOCS = {
     "dmb_sim_set_drive":
         "From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (scene.h).",
     "dmb_sim_set_input":
-        "From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are adapted to jumps. The energy of weight that a change of density adds is work of loads. Setting a value again does nothing. NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors: ERR_VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR, _UNSUPPORTED. O(elements).",
+        "From now on the inputs, shape (count), have these values, or approach them within their rate limits; all are set or none. Accelerations are adapted to jumps. The energy of weight that a change of density adds is work of loads. Setting a value again does nothing. NOTE_CLAMPED where a bound was taken instead, _FULL (log). Errors: ERR_VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR, _UNSUPPORTED. O(elements).",
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED, the message gives the change), which goes to `impact` (examples/programming, Joints and strings that change). A joint that a motion drive moves cannot be locked. Errors: ERR_GEOMETRY (parts or couplings do not fit within 1e-6 m and rad; a drive's speed cannot be reached), _SINGULAR, _NO_CONVERGENCE, _CALLBACK.",
     "dmb_sim_set_on_step":
@@ -542,7 +542,7 @@ FUNCTION_DOCS = {
     "dmb_version":
         "Version of the linked library, 10000 major + 100 minor + patch. Cannot fail.",
     "dmb_window_create":
-        "outputs, shape (output_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a output and slot. options may be NULL. Errors: those of dmb_output_check, ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then.",
+        "outputs, shape (output_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes per output and slot. options may be NULL. Errors: those of dmb_output_check, ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then.",
     "dmb_window_destroy":
         "Sets *window to NULL. NULL-safe.",
     "dmb_window_get":

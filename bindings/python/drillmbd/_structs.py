@@ -123,14 +123,14 @@ class ErrorStruct(Sized):
     ]
     field_docs = {
         "status": ("", "ERR_...; 0: no call of this thread has failed"),
-        "number": ("-", "of the part among those of its kind, of a field that is an array (NONE: it has none)"),
-        "component": ("-", "of the part among those of its kind, of a field that is an array (NONE: it has none)"),
+        "number": ("-", "number of the part in its kind"),
+        "component": ("-", "index in an array field (NONE: there is none)"),
         "value": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "low": ("unit of the field", "refused value and its range; NaN: no number, no range"),
         "high": ("unit of the field", "refused value and its range; NaN: no number, no range"),
-        "part": ("", "\"string 0 (main), pipe 12 (collars)\", as in the message; all texts end with 0"),
-        "kind": ("", "\"pipe\", \"collars\": of the innermost part (\"\" as all that a failure does not have)"),
-        "name": ("", "\"pipe\", \"collars\": of the innermost part (\"\" as all that a failure does not have)"),
+        "part": ("", "\"string 0 (main), pipe 12 (collars)\", as in the message. All texts end with 0; \"\": there is none"),
+        "kind": ("", "\"pipe\", \"collars\": of the innermost part"),
+        "name": ("", "\"pipe\", \"collars\": of the innermost part"),
         "field": ("", "\"outer_diameter\""),
         "given": ("", "the value as text: \"0.07\", \"(1, 2, 3)\""),
         "bound": ("", "\"be finite and > inner_diameter (0.08)\"; a bound after > or < is not in the range"),
@@ -183,7 +183,7 @@ class EnvironmentDef(Sized):
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; NOT_GIVEN (default): as outside"),
         "added_mass": ("-", "of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; NOT_GIVEN: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, and tool joints are spread over their pipe; stabilisers: of the mud they displace beyond the pipe. 0 (default): no inertia"),
-        "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
+        "flow_rate": ("m3/s", "of mud down the string, the only one of the model, which follows its hole, and back in a concentric annulus with the diameters at the depth where the string is described. Gives drag, pressures and thrust of the nozzles (dmb_query_flow), no lateral inertia. 0 (default): mud at rest"),
         "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
         "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
@@ -227,8 +227,8 @@ class FrictionAt(Record):
         "normal_force": ("N", ">= 0"),
         "slip": ("m/s", "of the pipe over the wall"),
         "slip_before": ("m/s", "at the last accepted time"),
-        "mu_static": ("-", "of the wall or section, times inputs, which a law may leave aside"),
-        "mu_dynamic": ("-", "of the wall or section, times inputs, which a law may leave aside"),
+        "mu_static": ("-", "of the wall or section, times inputs (a law need not use them)"),
+        "mu_dynamic": ("-", "of the wall or section, times inputs (a law need not use them)"),
     }
 
 
@@ -350,8 +350,8 @@ class Motor(MotorPart, Sized):
     ]
     field_docs = {
         "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
-        "stall_torque": ("N m", "at w = 0, and the most it gives; of mud a revolution; > 0"),
-        "displacement": ("m3", "at w = 0, and the most it gives; of mud a revolution; > 0"),
+        "stall_torque": ("N m", "at w = 0, the largest, > 0"),
+        "displacement": ("m3", "volume of mud per revolution, > 0"),
         "flow": ("m3/s", "through the motor, > 0"),
         "pressure": ("Pa", "drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure"),
         "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
@@ -504,7 +504,7 @@ class InputState(Sized):
         "value": ("unit", "set point; of a time function its value now"),
         "present": ("unit", "in force now, changing towards `value`"),
         "rate": ("unit/s", "in force now, changing towards `value`"),
-        "arrives": ("s", "time at which it is or was there; 0 of a time function"),
+        "arrives": ("s", "time at which `present` reaches or reached `value`; 0 with a time function"),
     }
 
 
@@ -521,8 +521,8 @@ class InputRecord(Record):
         ("call", c_uint32),
     ]
     field_docs = {
-        "time": ("s", "of the sim"),
-        "value": ("unit of the input", "as taken, clamped where it was"),
+        "time": ("s", "time of the sim"),
+        "value": ("unit of the input", "value that was set, after clamping"),
         "input": ("-", "number of the input in the order of description"),
         "call": ("-", "number of the call that set it: those of one call are set at once"),
     }
@@ -550,7 +550,7 @@ class EventReport(Sized):
         "count": ("-", "events reported: those within the tolerance of the first count as simultaneous"),
         "events": ("-", "bit i: event number i in the order of description is reported"),
         "time": ("s", "reached"),
-        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends; of dmb_sim_steps_to_event the length of the step, which holds the crossing or the end of the hold"),
+        "located": ("s", "bound of the time from the crossing to `time`; 0 without an event, and where a `hold` ends; of dmb_sim_steps_to_event the length of the step that contains the crossing or the end of the hold"),
         "crossing": ("s", "time of the crossing, of the first of several, before its `hold`; NaN without an event"),
     }
 
@@ -812,7 +812,7 @@ class JointState(Sized):
         "redundant": ("-", "of them dropped because others imply them"),
         "position": ("m, rad", "coordinates, RX and RY over full turns, and their rates"),
         "speed": ("m/s, rad/s", "coordinates, RX and RY over full turns, and their rates"),
-        "acceleration": ("m/s2, rad/s2", "the rates of those"),
+        "acceleration": ("m/s2, rad/s2", "rate of `speed`"),
         "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b; redundant: of least norm"),
         "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates"),
         "violation": ("m, -", "largest violation of its equations of position"),
@@ -854,7 +854,7 @@ class BitState(Sized):
         "torque": ("N m", "torque on bit, against the rotation, from the rock law"),
         "load": ("N", "bottom-hole load of the time function"),
         "side_force": ("N", "of the rock on the bit across its axis (side_cutting), world frame"),
-        "side_speed": ("m/s", "it is cut sideways at, across its axis"),
+        "side_speed": ("m/s", "of the lateral cut, across its axis"),
     }
 
 
@@ -1060,7 +1060,7 @@ class SpringState(Sized):
     field_docs = {
         "length": ("m", "between its points, and beyond its free length"),
         "elongation": ("m", "between its points, and beyond its free length"),
-        "speed": ("m/s", "the elongation grows at"),
+        "speed": ("m/s", "rate of the elongation"),
         "force": ("N", "tension > 0: sum of the next two"),
         "elastic": ("N", ""),
         "damper": ("N", ""),
@@ -1099,7 +1099,7 @@ class StuckState(Sized):
 
 
 class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over outputs ---------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    c_name, about = "dmb_window_options", "A window over outputs ---------------------------------------------------------------------------------------- Minimum, maximum and mean of outputs over the last `length` seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
     struct_size: int
     slots: int
     length: float
@@ -1148,8 +1148,8 @@ class WindowResult(Sized):
     field_docs = {
         "samples": ("-", "in the window"),
         "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
-        "minimum": ("unit of the output", "of the samples, NaN, as all that follow, without one"),
-        "maximum": ("unit of the output", "of the samples, NaN, as all that follow, without one"),
+        "minimum": ("unit of the output", "of the samples, NaN without one, as are the members below"),
+        "maximum": ("unit of the output", "of the samples, NaN without one, as are the members below"),
         "mean": ("unit of the output", "over time"),
         "rms": ("unit of the output", "root of the mean of the squares over time"),
         "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
@@ -1781,12 +1781,12 @@ class SteppedSineReport(Sized):
         ("time", c_double),
     ]
     field_docs = {
-        "settled": ("", "1 if it was"),
+        "settled": ("", "1: the amplitudes settled; 0: they did not"),
         "windows": ("-", "run"),
         "rejected": ("-", "steps tried and not accepted"),
         "steps": ("-", "accepted"),
-        "change": ("-", "between the last two windows, worst output"),
-        "remaining": ("-", "estimated still to come"),
+        "change": ("-", "change between the last two windows, worst output"),
+        "remaining": ("-", "estimated remaining change"),
         "time": ("s", "reached"),
     }
 
@@ -2509,10 +2509,10 @@ class BodyDef(Sized):
         "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0"),
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
         "contact_diameter": ("m", "of the contact ring at the reference point, 0: none; default 0"),
-        "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
+        "contact_length": ("m", "length of wall that it represents, > 0; default 1"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
-        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0"),
+        "added_mass": ("kg", "added mass of the mud along body x and across, at the x of the centre of mass, as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). It has no weight; >= 0; default 0"),
     }
 
 
@@ -2591,7 +2591,7 @@ class BitDef(Sized):
         "blades": ("-", "1 .. 64; default 4"),
         "history": ("-", "samples of the cut surface, of REGENERATIVE, 64 .. 2^20; default 1024"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
-        "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
+        "side_cutting": ("-", "steerability: depth of cut per revolution by a side force over that by the same axial force, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, on and off bottom, with any rock_law; the smaller, the more it drills along its own axis. The hole that it cuts does not act on the string: give the bit no `diameter`. No effect in statics at rest. 0 (default): no lateral force of the rock"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "as of a body"),
         "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string are ignored, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
@@ -2601,7 +2601,7 @@ class BitDef(Sized):
 
 
 class CouplingDef(Sized):
-    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes."
+    c_name, about = "dmb_coupling_def", "A linear relation of two to four joint coordinates: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one are subtracted too, each times its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes."
     struct_size: int
     reserved: int
     name: bytes
@@ -2726,7 +2726,7 @@ class DriveDef(DrivePart, Sized):
         "inertia": ("kg m2", ">= 0 of rotor and gear, turning with the component, RX of a string or a body; of MOTION too"),
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
-        "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
+        "curve_force": ("N, N m", ">= 0: largest force towards > 0 at a speed, linear between points, constant beyond; mirrored for forces < 0; shape (curve_count)"),
         "gain_count": ("-", "points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16"),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "instead of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
@@ -2936,8 +2936,8 @@ class BucklingOptions(Sized):
         "scale": ("", "SCALE_..., default SCALE_LOADS"),
         "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
         "part": ("", "load or drive of SCALE_PART"),
-        "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
-        "tolerance": ("-", "of factors, 1e-15 .. 0.1; default 1e-10"),
+        "factor_max": ("unit of the factor", "largest factor that is sought, > 0; default 1e12"),
+        "tolerance": ("-", "relative, of factors, 1e-15 .. 0.1; default 1e-10"),
         "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): moves the string by a millionth of an element"),
         "slip_axial": ("m/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
         "slip_rotation": ("rad/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
@@ -2999,8 +2999,8 @@ class SpeedsOptions(Sized):
         "threshold": ("-", "severity above which a speed is to be avoided, > 0; default 1"),
         "margin": ("-", "by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 0.03"),
         "refinement": ("-", "as of a response, for each order; default 12"),
-        "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
-        "friction": ("", "and sliding has next to no slope"),
+        "contact": ("", "CONTACT_..., as of a response"),
+        "friction": ("", "1: as of a response; 0 (default): left out: while a string turns, its slope is close to 0"),
         "contact_gap": ("m", "as of a response, same defaults"),
         "structural_damping": ("-", "as of a response, same defaults"),
         "equilibrium_tolerance": ("-", "as of a response, same defaults"),
@@ -3094,7 +3094,7 @@ ERROR_FN.__doc__ = "Sees each failing call on a model and its sims, at its end a
 
 
 FRICTION_FN = CFUNCTYPE(c_int32, c_void_p, POINTER(FrictionAt), POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(LawMemory))
-FRICTION_FN.__doc__ = "The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by slip and normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the point and 0 whenever it begins to touch. memory->step = INFINITY asks for sliding on and on at this slip, from any state: statics that slip, linear analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the thread of the call."
+FRICTION_FN.__doc__ = "The caller's friction at a contact point: force [N] on the pipe, by_slip (2, 2) and by_normal (2) its derivatives by slip and normal force with the state taken along (consistent tangent); all 0 when called. The state is that of the point and 0 whenever it begins to touch. memory->step = INFINITY asks for the friction of steady sliding at this slip, from any state: statics that slip, linear analyses, drives that move steadily. Returns 0, or nonzero to stop. Pure, from the thread of the call."
 
 
 FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double), POINTER(LawMemory))
@@ -3540,7 +3540,7 @@ class StuckDef(Sized):
         "holds": ("", "mask of STUCK_...; default AXIAL and ROTATION"),
         "name": ("", "for messages, ends with 0; default \"\""),
         "place": ("", "of a pipe, or a body or bit; required"),
-        "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
+        "stuck": ("", "1 (default): from time 0 on, in the pose at time 0; 0: free until an input sets it"),
         "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
         "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
         "overpull": ("N", "axial force, pull or push; torque, either way, at which it is released, > 0, overtorque at most stiffness[1] times 1 rad; 0 (default): never, at 1 rad"),
@@ -3578,7 +3578,7 @@ class Sub(Sized):
 
 
 class Output(Record):
-    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched, waited for and be an output of a response, stepped sine, state space or unit. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives length and speed as outputs; dmb_query_motion_at has its motion."
+    c_name, about = "dmb_output", "Frozen. A quantity at a place, for recorders, windows, events and the outputs of responses, stepped sine, state space and FMI units. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives length and speed as outputs; dmb_query_motion_at has its motion."
     place: Place
     quantity: int
     reserved: int
@@ -3588,7 +3588,7 @@ class Output(Record):
         ("reserved", c_int32),
     ]
     field_docs = {
-        "place": ("", "where the quantity is one of a place"),
+        "place": ("", "place or part that the quantity belongs to"),
         "quantity": ("", "OUTPUT_..."),
     }
 
@@ -3761,7 +3761,7 @@ class PathOptions(Sized):
         "place": ("", "place that is watched; part {0, 0} (default): none"),
         "component": ("", "of its displacement in the world, X (default) .. Z"),
         "branch": ("", "1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays"),
-        "factor_end": ("unit of the factor", "ends there; the path begins towards it; not 0; default 1"),
+        "factor_end": ("unit of the factor", "where the path ends and towards which it begins, not 0; default 1"),
         "displacement_end": ("m", "ends there; default UNLIMITED: nowhere"),
         "first_step": ("unit of the factor", "> 0, 0: factor_end/10; default 0"),
         "step_max": ("m", "longest arc, > 0; default UNLIMITED"),
@@ -3820,7 +3820,7 @@ class Excitation(Sized):
 
 
 class SubDef(Sized):
-    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor) at the far end of the string as it is described so far, and the section of pipes that continues the string `length` further along the body's x axis (examples/programming, Parts on strings). The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end."
+    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor) at the far end of the string as it is described so far, and the section of pipes that continues the string `length` further along the body's x axis (examples/programming, Parts on strings). Of the structs pointed to, poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints are ignored; frames a of joints are in the axes of the string's end."
     struct_size: int
     reserved: int
     string: Id
@@ -3910,7 +3910,7 @@ class RecorderStruct(Sized):
         "capacity": ("-", "rows of table"),
         "row_count": ("-", "rows written, start with 0"),
         "interval": ("s", "between samples, 0: every call"),
-        "window": ("", "of the outputs of a window, fed by the caller before; default NULL"),
+        "window": ("", "of outputs of a window; dmb_window_take comes before dmb_recorder_take; default NULL"),
     }
 
 

@@ -357,8 +357,8 @@ FRICTION_CALLBACK = FrictionLaw.CALLBACK
 class HoleShape(IntEnum):
     """Values DMB_HOLE_... of the headers.
 
-    STEP: the values hold up to the next section, or on and on
-    LINE: they go in straight lines to those of the next section
+    STEP: the values hold up to the next section, or to the end of the hole
+    LINE: they vary linearly to those of the next section
     """
     STEP = 0
     LINE = 1
@@ -1317,7 +1317,7 @@ SCALE_PART = Scale.PART
 class BucklingEnd(IntEnum):
     """Values DMB_BUCKLING_... of the headers.
 
-    EXTRAPOLATED: there was none: follow = 0, or nothing buckles about the present state
+    EXTRAPOLATED: no path was followed: follow = 0, or nothing buckles about the present state
     BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable
     LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
     STABLE: none: det K keeps its sign up to `reached`
@@ -1340,7 +1340,7 @@ BUCKLING_DIP = BucklingEnd.DIP
 class Flutter(IntEnum):
     """Values DMB_FLUTTER_... of the headers.
 
-    NOT_JUDGED: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
+    NOT_JUDGED: K is symmetric on the whole path, which allows none; friction is assumed to slip; no path is followed and no mode grows in the present state; no modes found (message)
     NONE: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
     FOUND: one grows from flutter_factor on
     """
