@@ -48,6 +48,14 @@ typedef struct dmb_beam_args {
     dmb_seam *seam;                               /* added to in place of the last node; NULL: that itself is */
 } dmb_beam_args;
 
+/* Of one straight element, for section forces (query/section_load). */
+typedef struct dmb_end_loads {
+    double strain[6];                  /* [m, rad] d, relative pose of its ends */
+    double load[12];                   /* [N, N m] of the sections at both ends, each in its axes (eq:beam.section-force) */
+    double far_rotation[9], far_at[3]; /* of end B in the axes of node A; [m] */
+    double growth[3];                  /* [N] inertia force of a section at B minus that at A, times the length; node A */
+} dmb_end_loads;
+
 /* A run of axial-torsional elements: element i lies between the nodes i and i + 1 of the run, all of them
  * axial-torsional. Pointers are to the run's first bar, node or row. */
 typedef struct dmb_axial_torsional_args {
@@ -315,6 +323,9 @@ typedef struct dmb_kernels {
     uint32_t reserved;
     /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with job->failed. */
     int32_t (*beams)(dmb_beam_args *args);
+    /* Loads of straight elements, without the drag of mud: reads the inputs of forces and `gravity`, shape (3). Returns
+     * 0, or -1. */
+    int32_t (*end_loads)(dmb_beam_args *args, dmb_end_loads *loads);
     /* Forces. */
     void (*axial_torsional_elements)(dmb_axial_torsional_args *args);
     /* Forces and, if asked for, tangent blocks. */

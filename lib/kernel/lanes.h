@@ -243,6 +243,89 @@ static void extrapolate(const dmb_beam_args *args)
     }
 }
 
+/* ---- Loads at the ends of elements ------------------------------------------------------------------------------- */
+
+/* Numbers of dmb_end_loads, in its order. */
+enum { LOADS_NUMBERS = sizeof(dmb_end_loads) / sizeof(double), LOADS_LOAD = 6, LOADS_FAR = 18, LOADS_GROWTH = 30 };
+
+/* load += half the weight and the moment +- w L^2/12 of one end, g: gravity in its axes */
+static inline void add_end_weight(dmb_real half, dmb_real arm, const dmb_real g[3], dmb_real load[6])
+{
+    const dmb_real f[6] = {half * g[0], half * g[1], half * g[2], dmb_real_of(0.0), -arm * half * g[2], arm * half * g[1]};
+    for (int i = 0; i < 6; i++) load[i] = load[i] + f[i];
+}
+
+/* Loads of both ends from the forces on the nodes and the weight; `half` of the mass that weighs [kg], the element's
+ * length [m]. */
+DMB_LANES_INLINE void loads_of(const dmb_beam_args *args, const dmb_beam_constants *c, const dmb_beam_input *in,
+                               dmb_real half, dmb_real length, dmb_beam_output *out, dmb_real *x)
+{
+    const dmb_real arm = length / 6.0;
+    dmb_real world[3], g[3];
+    for (int i = 0; i < 3; i++) world[i] = dmb_real_of(args->gravity[i]);
+    if (args->arms) dmb_arm_wrench(-c->arm[0], out->fa);
+    if (args->arms) dmb_arm_wrench(c->arm[1], out->fb);
+    for (int i = 0; i < 6; i++) {
+        x[i] = out->strain[i];
+        x[LOADS_LOAD + i] = -out->fa[i];
+        x[LOADS_LOAD + 6 + i] = out->fb[i];
+    }
+    dmb_mat3_tvec(in->Ra, world, g);
+    add_end_weight(half, arm, g, x + LOADS_LOAD);
+    dmb_mat3_tvec(x + LOADS_FAR, g, g);
+    add_end_weight(-half, -arm, g, x + LOADS_LOAD + 6);
+}
+
+/* F1 of eq:beam.section-force; velocities and accelerations are those of the ends. */
+DMB_LANES_INLINE void growth_of(const dmb_beam_input *in, dmb_real mass, dmb_real *x)
+{
+    dmb_real near[3], far[3];
+    dmb_vec3_cross(in->va + 3, in->va, near);
+    dmb_vec3_add(near, in->aa, near);
+    dmb_vec3_cross(in->vb + 3, in->vb, far);
+    dmb_vec3_add(far, in->ab, far);
+    dmb_mat3_vec(x + LOADS_FAR, far, far);
+    for (int i = 0; i < 3; i++) x[LOADS_GROWTH + i] = mass * (near[i] - far[i]);
+}
+
+DMB_LANES_INLINE void far_end_of(const dmb_beam_constants *c, const dmb_real d[6], dmb_real *x)
+{
+    dmb_se3_exp(d, NULL, x + LOADS_FAR, x + LOADS_FAR + 9);
+    x[LOADS_FAR + 9] = x[LOADS_FAR + 9] + c->arm[0];
+}
+
+DMB_LANES_CALL int32_t end_loads(dmb_beam_args *args, dmb_end_loads *loads)
+{
+    const dmb_beam_task task = {0.0, 0.0, args->dynamic, 0, 0, args->dynamic && args->damped, args->damped, 0, args->arms, 0,
+                                NULL};
+    lane_types types;
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
+        dmb_beam_input in;
+        dmb_beam_output out;
+        dmb_real x[LOADS_NUMBERS], half = dmb_real_of(0.0), length = half, mass = half;
+        load_types(args, &g, first == 0, &types);
+        for (int i = 0; i < 6; i++) in.va[i] = in.vb[i] = in.aa[i] = in.ab[i] = dmb_real_of(0.0);
+        load_input(args, &task, &g, &in);
+        if (dmb_beam_element(&task, &types.constants, &types.curved, &in, &out) < 0) return -1;
+        for (int l = 0; l < DMB_REAL_LANES; l++) {
+            const dmb_element_type *type = args->types + types.type[l];
+            dmb_real_set_lane(&half, l, 0.5 * type->weight_mass);
+            dmb_real_set_lane(&length, l, type->length);
+            dmb_real_set_lane(&mass, l, type->mass_per_metre * type->length);
+        }
+        far_end_of(&types.constants, out.strain, x);
+        loads_of(args, &types.constants, &in, half, length, &out, x);
+        growth_of(&in, mass, x);
+        for (uint32_t l = 0; l < g.used; l++) {
+            double numbers[LOADS_NUMBERS];
+            for (int i = 0; i < LOADS_NUMBERS; i++) numbers[i] = dmb_real_lane(x + i, (int)l);
+            memcpy(loads + first + l, numbers, sizeof numbers);
+        }
+    }
+    return 0;
+}
+
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* H1 = H0 exp(z) */
@@ -345,6 +428,7 @@ static void solve_from_middle(const dmb_block_layout *layout, const dmb_block_ma
 extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
+                                 .end_loads = end_loads,
                                  .axial_torsional_elements = axial_torsional_elements,
                                  .axial_torsional_nodes = axial_torsional_nodes,
                                  .extrapolate = extrapolate,

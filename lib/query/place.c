@@ -84,11 +84,13 @@ static void place_in_element(const dmb_scene *scene, const dmb_pipe_map *pipe, d
     if (!(point->fraction < 1.0)) fix(point, point->node + 1, -type->arm[1]);
 }
 
-static int32_t place_on_string(const dmb_sim *sim, dmb_place place, dmb_material_point *point)
+int32_t dmb_string_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point)
 {
+    static const dmb_material_point nowhere = {0, DMB_NONE, 0.0, 0.0, 0.0, 0, 0};
     int32_t status;
     const dmb_pipe_map *pipe = dmb_pipe_of(sim, place.part, place.pipe, &status);
     double back;
+    *point = nowhere;
     if (pipe == NULL) return status;
     if (!isfinite(place.fraction)) return DMB_ERR_NOT_FINITE;
     if (!(place.fraction >= 0.0 && place.fraction <= 1.0)) return DMB_ERR_VALUE;
@@ -112,7 +114,7 @@ int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_
         if (place.pipe != 0 || place.fraction != 0.0) return DMB_ERR_VALUE;
         fix(&found, sim->scene->bodies[body].node, sim->scene->bodies[body].arm);
     } else {
-        const int32_t status = place_on_string(sim, place, &found);
+        const int32_t status = dmb_string_point_of(sim, place, &found);
         if (status < 0) return status;
     }
     *point = found;

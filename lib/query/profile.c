@@ -82,6 +82,7 @@ typedef struct station {
     dmb_material_point point;
     double diameters[2];        /* [m] outer and inner, of the tool joint where the station is in one */
     double tangent[3], bend[3]; /* of the hole's axis; 0 without a hole */
+    dmb_kept_loads *kept;
     double values[DMB_PROFILE_QUANTITIES];
 } station;
 
@@ -160,7 +161,7 @@ static void bending_values(station *at, const double force[6])
 static void section_values(station *at, int32_t groups)
 {
     double force[6], *v = at->values;
-    dmb_section_force_at(at->sim, at->place, &at->point, force);
+    dmb_section_force_at(at->sim, at->place, &at->point, at->kept, force);
     v[DMB_PROFILE_EFFECTIVE_FORCE] = force[0];
     if ((groups & DMB_TAKES_POSE) != 0) v[DMB_PROFILE_AXIAL_FORCE] = force[0] - pressure_force(at) + momentum(at);
     v[DMB_PROFILE_TORQUE] = force[3];
@@ -385,7 +386,7 @@ static int32_t find_string(const dmb_sim *sim, dmb_id *string, uint32_t *index)
 /* Sets sim, place and run of a station. */
 static int32_t read_station(station *at, double distance, int32_t groups)
 {
-    const int32_t status = dmb_material_point_of(at->sim, at->place, &at->point);
+    const int32_t status = dmb_string_point_of(at->sim, at->place, &at->point);
     if (status < 0) return status;
     for (int k = 0; k < DMB_PROFILE_QUANTITIES; k++) at->values[k] = (double)NAN;
     at->values[DMB_PROFILE_DISTANCE] = distance;
@@ -393,11 +394,12 @@ static int32_t read_station(station *at, double distance, int32_t groups)
     return fill(at, groups);
 }
 
-static int32_t fill_station(station_iterator *iterator, const dmb_profile *profile, uint32_t i, int32_t groups)
+static int32_t fill_station(station_iterator *iterator, const dmb_profile *profile, uint32_t i, int32_t groups,
+                            dmb_kept_loads *kept)
 {
     const double length = iterator->sim->scene->strings[iterator->string].length;
     const double distance = distance_of(profile, i, length);
-    station at = {.sim = iterator->sim};
+    station at = {.sim = iterator->sim, .kept = kept};
     int32_t status;
     at.place = place_at(iterator, profile->string, distance);
     at.run = &iterator->runs[iterator->run];
@@ -411,6 +413,7 @@ int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *given)
 {
     int32_t status = dmb_ask(sim, given), groups = 0;
     dmb_profile profile;
+    dmb_kept_loads kept;
     station_iterator iterator = {.sim = sim};
     if (status == DMB_OK) status = dmb_profile_read(&profile, given);
     if (status == DMB_OK) status = find_string(sim, &profile.string, &iterator.string);
@@ -421,15 +424,18 @@ int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *given)
     iterator.runs = sim->model->runs.items;
     iterator.run_count = sim->model->runs.count;
     rewind_iterator(&iterator);
+    dmb_kept_loads_begin(8 * (uint64_t)profile.station_count < sim->scene->element_count ? 1 : DMB_LOADS_KEPT, &kept);
     for (uint32_t i = 0; i < profile.station_count && status >= 0; i++)
-        status = fill_station(&iterator, &profile, i, groups);
+        status = fill_station(&iterator, &profile, i, groups, &kept);
     return status;
 }
 
 int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity, double *value)
 {
     station_iterator iterator = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
-    station at = {.sim = sim, .place = place};
+    dmb_kept_loads kept;
+    station at = {.sim = sim, .place = place, .kept = &kept};
+    dmb_kept_loads_begin(1, &kept);
     iterator.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     if (iterator.string >= sim->scene->string_count) return DMB_ERR_ID;
     at.run = dmb_pipe_run_of(sim->model, iterator.string, place.pipe);

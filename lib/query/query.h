@@ -7,6 +7,7 @@
 #include "drillmbd/ask.h"
 #include "drillmbd/scene.h"
 #include "element/beam.h"
+#include "kernel/kernels.h"
 #include "model/model.h"
 #include "sim/sim.h"
 #include "system/assemble/assemble.h"
@@ -26,6 +27,8 @@ typedef struct dmb_material_point {
 /* Material point of a place. Errors: DMB_ERR_ID, DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (pipe or fraction outside the part).
  * O(1). */
 int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point);
+/* The same of a place that is on a string; it is written where that fails too. */
+int32_t dmb_string_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point);
 
 /* Pipe of a string, or NULL if there is none: DMB_ERR_ID or DMB_ERR_VALUE in *status. */
 const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe, int32_t *status);
@@ -155,13 +158,29 @@ double dmb_fraction_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *sha
 
 /* ---- Section forces ---------------------------------------------------------------------------------------------- */
 
+/* Loads of the ends of elements that were computed side by side, kept from station to station. */
+enum { DMB_LOADS_KEPT = 32 };
+typedef struct dmb_kept_loads {
+    uint32_t first, count; /* elements in `loads` */
+    uint32_t most;         /* elements to compute at once, where stations go on along the string: 1 .. DMB_LOADS_KEPT */
+    uint32_t reserved;
+    dmb_end_loads loads[DMB_LOADS_KEPT];
+} dmb_kept_loads;
+
+static inline void dmb_kept_loads_begin(uint32_t most, dmb_kept_loads *kept)
+{
+    kept->first = kept->count = 0;
+    kept->most = most;
+}
+
 /* Section force at a point of a pipe, in its tool joint too, as dmb_section tells it; point: that of the place, of an
  * element. */
-void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6]);
+void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, dmb_kept_loads *kept,
+                          double force[6]);
 /* Section force at a point of an element of the pipe, not in its tool joint, in the convention of dmb_section. O(log
  * sites + loads + springs + stuck places). */
 void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
-                         double load[6]);
+                         dmb_kept_loads *kept, double load[6]);
 /* Changes the load at the near end of the tool joint to that at the point in it, in place. */
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6]);

@@ -13,11 +13,12 @@
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6])
+void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, dmb_kept_loads *kept,
+                          double force[6])
 {
     dmb_described_pipe pipe;
     dmb_describe_pipe(sim, dmb_model_part_index(sim->model, place.part, DMB_PART_STRING), place.pipe, &pipe);
-    dmb_section_load_of(sim, &pipe, point, force);
+    dmb_section_load_of(sim, &pipe, point, kept, force);
     if (point->beyond > 0.0) dmb_section_load_in_joint(sim, &pipe, point, force);
 }
 
@@ -37,10 +38,12 @@ int32_t dmb_answer_section(const dmb_sim *sim, dmb_place place, dmb_section *sec
     int32_t status = dmb_ask(sim, section);
     dmb_material_point point;
     dmb_section answer = {0};
+    dmb_kept_loads kept;
     if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
     if (point.element == DMB_NONE) return DMB_ERR_UNSUPPORTED;
-    dmb_section_force_at(sim, place, &point, answer.force);
+    dmb_kept_loads_begin(1, &kept);
+    dmb_section_force_at(sim, place, &point, &kept, answer.force);
     section_strain(sim->scene, &sim->now, &point, answer.strain);
     return dmb_section_write(section, &answer);
 }

@@ -27,32 +27,132 @@ typedef struct host {
     int32_t bending;
     double d[6];
     section_frame a, b; /* ends */
+    double growth[3];   /* [N] F1 */
     double load[12];    /* [N, N m] of the sections at both ends, each in its axes */
 } host;
 
-static void frame_at(const host *h, double fraction, section_frame *frame)
+static void inner_frame(const host *h, double fraction, section_frame *frame)
 {
     dmb_section_shape shape;
     dmb_section_shape_at(h->type, fraction, h->bending, &shape);
     dmb_section_pose(h->type, &shape, h->d, frame->Q, frame->r);
 }
 
-static void host_of(const dmb_sim *sim, uint32_t element, host *h)
+static void frame_at(const host *h, double fraction, section_frame *frame)
+{
+    if (fraction == 0.0)
+        *frame = h->a;
+    else if (fraction == 1.0)
+        *frame = h->b;
+    else
+        inner_frame(h, fraction, frame);
+}
+
+/* F1 [N]: inertia force of a section at B minus that at A, times the length; frame of node A. */
+static void growth_of_inertia(const host *h, double F1[3])
+{
+    const dmb_scene *scene = h->sim->scene;
+    const dmb_configuration *c = &h->sim->now;
+    double acceleration[2][3];
+    dmb_vec3_zero(F1);
+    if (dmb_is_quasi_static(c)) return;
+    for (uint32_t end = 0; end < 2; end++) {
+        double v[6], a[6], turning[3];
+        dmb_node_vector(scene, c, h->node + end, c->velocity, v);
+        dmb_node_vector(scene, c, h->node + end, c->acceleration, a);
+        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], v);
+        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], a);
+        dmb_vec3_cross(v + 3, v, turning);
+        dmb_vec3_add(a, turning, a);
+        dmb_mat3_vec(end ? h->b.Q : h->a.Q, a, acceleration[end]);
+    }
+    dmb_vec3_sub(acceleration[0], acceleration[1], F1);
+    dmb_vec3_scale(h->type->mass_per_metre * h->type->length, F1, F1);
+}
+
+/* Elements from this one on that are side by side between six-DOF nodes and straight, at most `most`. */
+static uint32_t straight_elements(const dmb_scene *scene, uint32_t first, uint32_t most)
+{
+    const uint32_t node = scene->element_node[first];
+    uint32_t n = 0;
+    for (; n < most && first + n < scene->element_count; n++)
+        if (scene->element_node[first + n] != node + n || scene->layout.size[node + n] != DMB_NODE_SIX_DOF ||
+            scene->layout.size[node + n + 1] != DMB_NODE_SIX_DOF ||
+            dmb_element_is_curved(scene->types + scene->element_type[first + n]))
+            break;
+    return n;
+}
+
+static int32_t compute_kept(const dmb_sim *sim, dmb_kept_loads *kept)
 {
     const dmb_scene *scene = sim->scene;
+    const uint32_t e = kept->first, a = scene->element_node[e], row = scene->layout.row[a];
+    const int32_t dynamic = !dmb_is_quasi_static(&sim->now);
+    dmb_beam_args args = {.count = kept->count,
+                          .types = scene->types,
+                          .type = scene->element_type + e,
+                          .span = scene->element_span + 3 * (size_t)e,
+                          .displacement = sim->now.displacement + 3 * (size_t)a,
+                          .quaternion = sim->now.quaternion + 4 * (size_t)a,
+                          .velocity = sim->now.velocity + row,
+                          .acceleration = sim->now.acceleration + row,
+                          .dynamic = dynamic,
+                          .damped = dynamic && scene->damped,
+                          .arms = scene->arms,
+                          .gravity = scene->gravity};
+    return scene->kernels->end_loads(&args, kept->loads);
+}
+
+/* Loads of an element by lanes; NULL: it is not for them. Stations that go back take their elements one by one. */
+static const dmb_end_loads *find_kept(const dmb_sim *sim, uint32_t element, dmb_kept_loads *kept)
+{
+    if (element - kept->first < kept->count) return kept->loads + (element - kept->first);
+    if (sim->scene->flow_count > 0) return NULL;
+    kept->count = straight_elements(sim->scene, element, element < kept->first ? 1 : kept->most);
+    kept->first = element;
+    if (kept->count > 0 && compute_kept(sim, kept) < 0) kept->count = 0;
+    return kept->count > 0 ? kept->loads : NULL;
+}
+
+static void compute_loads(host *h)
+{
+    const dmb_scene *scene = h->sim->scene;
     dmb_end_pose a, b;
+    dmb_element_end_loads(scene, &h->sim->now, h->element, h->load);
+    if (!h->bending) return;
+    dmb_end_pose_now(scene, &h->sim->now, h->node, &a);
+    dmb_end_pose_now(scene, &h->sim->now, h->node + 1, &b);
+    dmb_relative_pose(scene, h->element, &a, &b, h->d);
+    inner_frame(h, 1.0, &h->b);
+    growth_of_inertia(h, h->growth);
+}
+
+static void take_loads(const dmb_end_loads *from, host *h)
+{
+    dmb_vec6_copy(from->strain, h->d);
+    dmb_mat3_copy(from->far_rotation, h->b.Q);
+    dmb_vec3_copy(from->far_at, h->b.r);
+    dmb_vec3_copy(from->growth, h->growth);
+    memcpy(h->load, from->load, sizeof h->load);
+}
+
+static void host_of(const dmb_sim *sim, uint32_t element, dmb_kept_loads *kept, host *h)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_end_loads *found = find_kept(sim, element, kept);
     h->sim = sim;
     h->element = element;
     h->node = scene->element_node[element];
     h->type = scene->types + scene->element_type[element];
     h->bending = scene->layout.size[h->node] != DMB_NODE_AXIAL_TORSIONAL ||
                  scene->layout.size[h->node + 1] != DMB_NODE_AXIAL_TORSIONAL;
-    dmb_end_pose_now(scene, &sim->now, h->node, &a);
-    dmb_end_pose_now(scene, &sim->now, h->node + 1, &b);
-    dmb_relative_pose(scene, element, &a, &b, h->d);
-    frame_at(h, 0.0, &h->a);
-    frame_at(h, 1.0, &h->b);
-    dmb_element_end_loads(scene, &sim->now, element, h->load);
+    dmb_mat3_identity(h->a.Q);
+    dmb_vec3_zero(h->a.r);
+    h->a.r[0] = h->type->arm[0];
+    if (found != NULL)
+        take_loads(found, h);
+    else
+        compute_loads(h);
 }
 
 /* Adds a wrench at a section, given in its axes, in the frame of node A about the point x. */
@@ -75,6 +175,7 @@ typedef struct point_loads {
     double x, at[3];        /* the section, and its position in the frame of node A */
     double all[6], part[6]; /* in the frame of node A */
     double nodes[12];       /* each in the frame of its node */
+    uint32_t count, reserved;
 } point_loads;
 
 /* w: wrench at the section, in its axes. */
@@ -87,6 +188,7 @@ static void add_point(const host *h, double fraction, const double w[6], point_l
     dmb_section_shape_at(h->type, fraction, h->bending, &shape);
     dmb_section_frame_at(&shape, h->d, &frame);
     dmb_section_wrench(h->type->arm, &shape, &frame, w, f);
+    loads->count++;
     for (int i = 0; i < 12; i++) loads->nodes[i] += f[i];
     frame_at(h, fraction, &at);
     add_moved(&at, w, 1.0, h->b.r, loads->all);
@@ -256,28 +358,6 @@ static void add_eccentric(host *h, const dmb_described_pipe *pipe)
 
 /* ---- Distributed loads ------------------------------------------------------------------------------------------- */
 
-/* F1 [N]: inertia force of a section at B minus that at A, times the length; frame of node A. */
-static void growth_of_inertia(const host *h, double F1[3])
-{
-    const dmb_scene *scene = h->sim->scene;
-    const dmb_configuration *c = &h->sim->now;
-    double acceleration[2][3];
-    dmb_vec3_zero(F1);
-    if (dmb_is_quasi_static(c)) return;
-    for (uint32_t end = 0; end < 2; end++) {
-        double v[6], a[6], turning[3];
-        dmb_node_vector(scene, c, h->node + end, c->velocity, v);
-        dmb_node_vector(scene, c, h->node + end, c->acceleration, a);
-        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], v);
-        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], a);
-        dmb_vec3_cross(v + 3, v, turning);
-        dmb_vec3_add(a, turning, a);
-        dmb_mat3_vec(end ? h->b.Q : h->a.Q, a, acceleration[end]);
-    }
-    dmb_vec3_sub(acceleration[0], acceleration[1], F1);
-    dmb_vec3_scale(h->type->mass_per_metre * h->type->length, F1, F1);
-}
-
 /* x (r_A - r)/2 + x^2 L (t_A - t)/12: integral of the vector from the section to the points of the segment, over their
  * fraction (trapezoidal rule with end correction; exact for cubic curves). */
 static void way_to(const host *h, double x, const section_frame *at, double way[3])
@@ -298,8 +378,8 @@ static void total_of(const host *h, const point_loads *loads, double T[6])
  * remaining moment of the whole element is distributed uniformly. */
 static void distributed_to(const host *h, double x, const section_frame *at, const double T[6], double D[6])
 {
-    double F1[3], way[3], moment[3], left[3], span[3], grown[3];
-    growth_of_inertia(h, F1);
+    const double *F1 = h->growth;
+    double way[3], moment[3], left[3], span[3], grown[3];
     dmb_vec3_sub(h->b.r, h->a.r, span);
     dmb_vec3_cross(span, F1, grown);
     way_to(h, 1.0, &h->b, way);
@@ -316,22 +396,26 @@ static void distributed_to(const host *h, double x, const section_frame *at, con
 /* ---- The section ------------------------------------------------------------------------------------------------- */
 
 void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
-                         double load[6])
+                         dmb_kept_loads *kept, double load[6])
 {
     const double x = point->fraction;
     double sum[6] = {0.0}, T[6], D[6];
     host h;
     section_frame at;
     point_loads loads;
-    host_of(sim, point->element, &h);
+    host_of(sim, point->element, kept, &h);
     if (!h.bending) {
         dmb_vec6_copy(h.load, load); /* mean of an axial-torsional element */
         return;
     }
     frame_at(&h, x, &at);
     point_loads_of(&h, x, &at, &loads);
-    subtract_nodes(&h, &loads);
+    if (loads.count > 0) subtract_nodes(&h, &loads);
     add_eccentric(&h, pipe);
+    if (loads.count == 0 && (x == 0.0 || x == 1.0)) {
+        dmb_vec6_copy(h.load + (x > 0.0 ? 6 : 0), load);
+        return;
+    }
     total_of(&h, &loads, T);
     distributed_to(&h, x, &at, T, D);
     add_moved(&h.a, h.load, 1.0, at.r, sum);
