@@ -50,10 +50,10 @@ typedef struct dmb_beam_args {
 
 /* Of one straight element, for section forces (query/section_load). */
 typedef struct dmb_end_loads {
-    double strain[6];                  /* [m, rad] d, relative pose of its ends */
-    double load[12];                   /* [N, N m] of the sections at both ends, each in its axes (eq:beam.section-force) */
+    double strain[6]; /* [m, rad] d, relative pose of its ends */
+    double load[12];  /* [N, N m] of the sections at both ends, each in its axes (eq:beam.section-force) */
     double far_rotation[9], far_at[3]; /* of end B in the axes of node A; [m] */
-    double growth[3];                  /* [N] inertia force of a section at B minus that at A, times the length; node A */
+    double growth[3]; /* [N] inertia force of a section at B minus that at A, times the length; node A */
 } dmb_end_loads;
 
 /* A run of axial-torsional elements: element i lies between the nodes i and i + 1 of the run, all of them

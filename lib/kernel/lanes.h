@@ -251,16 +251,20 @@ enum { LOADS_NUMBERS = sizeof(dmb_end_loads) / sizeof(double), LOADS_LOAD = 6, L
 /* load += half the weight and the moment +- w L^2/12 of one end, g: gravity in its axes */
 static inline void add_end_weight(dmb_real half, dmb_real arm, const dmb_real g[3], dmb_real load[6])
 {
-    const dmb_real f[6] = {half * g[0], half * g[1], half * g[2], dmb_real_of(0.0), -arm * half * g[2], arm * half * g[1]};
+    const dmb_real f[6] = {half * g[0],      half * g[1],        half * g[2],
+                           dmb_real_of(0.0), -arm * half * g[2], arm * half * g[1]};
     for (int i = 0; i < 6; i++) load[i] = load[i] + f[i];
 }
 
-/* Loads of both ends from the forces on the nodes and the weight; `half` of the mass that weighs [kg], the element's
- * length [m]. */
+/* Half the mass that weighs [kg], a sixth of the length [m], and the mass [kg] of an element. */
+typedef struct load_masses {
+    dmb_real half, arm, mass;
+} load_masses;
+
+/* Loads of both ends from the forces on the nodes and the weight. */
 DMB_LANES_INLINE void loads_of(const dmb_beam_args *args, const dmb_beam_constants *c, const dmb_beam_input *in,
-                               dmb_real half, dmb_real length, dmb_beam_output *out, dmb_real *x)
+                               const load_masses *m, dmb_beam_output *out, dmb_real *x)
 {
-    const dmb_real arm = length / 6.0;
     dmb_real world[3], g[3];
     for (int i = 0; i < 3; i++) world[i] = dmb_real_of(args->gravity[i]);
     if (args->arms) dmb_arm_wrench(-c->arm[0], out->fa);
@@ -271,9 +275,9 @@ DMB_LANES_INLINE void loads_of(const dmb_beam_args *args, const dmb_beam_constan
         x[LOADS_LOAD + 6 + i] = out->fb[i];
     }
     dmb_mat3_tvec(in->Ra, world, g);
-    add_end_weight(half, arm, g, x + LOADS_LOAD);
+    add_end_weight(m->half, m->arm, g, x + LOADS_LOAD);
     dmb_mat3_tvec(x + LOADS_FAR, g, g);
-    add_end_weight(-half, -arm, g, x + LOADS_LOAD + 6);
+    add_end_weight(-m->half, -m->arm, g, x + LOADS_LOAD + 6);
 }
 
 /* F1 of eq:beam.section-force; velocities and accelerations are those of the ends. */
@@ -296,27 +300,28 @@ DMB_LANES_INLINE void far_end_of(const dmb_beam_constants *c, const dmb_real d[6
 
 DMB_LANES_CALL int32_t end_loads(dmb_beam_args *args, dmb_end_loads *loads)
 {
-    const dmb_beam_task task = {0.0, 0.0, args->dynamic, 0, 0, args->dynamic && args->damped, args->damped, 0, args->arms, 0,
-                                NULL};
+    const dmb_beam_task task = {0.0,          0.0, args->dynamic, 0, 0,   args->dynamic && args->damped,
+                                args->damped, 0,   args->arms,    0, NULL};
     lane_types types;
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, args->count);
         dmb_beam_input in;
         dmb_beam_output out;
-        dmb_real x[LOADS_NUMBERS], half = dmb_real_of(0.0), length = half, mass = half;
+        dmb_real x[LOADS_NUMBERS];
+        load_masses m = {dmb_real_of(0.0), dmb_real_of(0.0), dmb_real_of(0.0)};
         load_types(args, &g, first == 0, &types);
         for (int i = 0; i < 6; i++) in.va[i] = in.vb[i] = in.aa[i] = in.ab[i] = dmb_real_of(0.0);
         load_input(args, &task, &g, &in);
         if (dmb_beam_element(&task, &types.constants, &types.curved, &in, &out) < 0) return -1;
         for (int l = 0; l < DMB_REAL_LANES; l++) {
             const dmb_element_type *type = args->types + types.type[l];
-            dmb_real_set_lane(&half, l, 0.5 * type->weight_mass);
-            dmb_real_set_lane(&length, l, type->length);
-            dmb_real_set_lane(&mass, l, type->mass_per_metre * type->length);
+            dmb_real_set_lane(&m.half, l, 0.5 * type->weight_mass);
+            dmb_real_set_lane(&m.arm, l, type->length / 6.0);
+            dmb_real_set_lane(&m.mass, l, type->mass_per_metre * type->length);
         }
         far_end_of(&types.constants, out.strain, x);
-        loads_of(args, &types.constants, &in, half, length, &out, x);
-        growth_of(&in, mass, x);
+        loads_of(args, &types.constants, &in, &m, &out, x);
+        growth_of(&in, m.mass, x);
         for (uint32_t l = 0; l < g.used; l++) {
             double numbers[LOADS_NUMBERS];
             for (int i = 0; i < LOADS_NUMBERS; i++) numbers[i] = dmb_real_lane(x + i, (int)l);

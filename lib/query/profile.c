@@ -163,7 +163,7 @@ static void section_values(station *at, int32_t groups)
     double force[6], *v = at->values;
     dmb_section_force_at(at->sim, at->place, &at->point, at->kept, force);
     v[DMB_PROFILE_EFFECTIVE_FORCE] = force[0];
-    if ((groups & DMB_TAKES_POSE) != 0) v[DMB_PROFILE_AXIAL_FORCE] = force[0] - pressure_force(at) + momentum(at);
+    if ((groups & DMB_TAKES_PRESSURE) != 0) v[DMB_PROFILE_AXIAL_FORCE] = force[0] - pressure_force(at) + momentum(at);
     v[DMB_PROFILE_TORQUE] = force[3];
     v[DMB_PROFILE_SHEAR_FORCE] = hypot(force[1], force[2]);
     v[DMB_PROFILE_SHEAR_Y] = force[1];
@@ -321,10 +321,18 @@ static void motion_values(station *at)
     v[DMB_PROFILE_ACCELERATION_LATERAL] = hypot(a[1], a[2]);
 }
 
+/* 1: values of these groups require the pose. */
+static int takes_pose(const station *at, int32_t groups)
+{
+    return (groups & DMB_TAKES_POSE) != 0 ||
+           ((groups & DMB_TAKES_BENDING) != 0 && pipe_of(at)->kind == DMB_PIPE_AXIAL_TORSIONAL) ||
+           ((groups & DMB_TAKES_LIMITS) != 0 && dmb_mud_is_apart(at->sim->scene));
+}
+
 static int32_t fill(station *at, int32_t groups)
 {
     int32_t status = DMB_OK;
-    if ((groups & DMB_TAKES_POSE) != 0) pose_values(at);
+    if (takes_pose(at, groups)) pose_values(at);
     if ((groups & DMB_TAKES_MOTION) != 0) motion_values(at);
     if ((groups & DMB_TAKES_CONTACT) != 0) status = contact_values(at);
     if ((groups & DMB_TAKES_SECTION) == 0 || at->point.element == DMB_NONE) return status;

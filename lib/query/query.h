@@ -315,10 +315,11 @@ enum {
     DMB_TAKES_POSE = 1,
     DMB_TAKES_SECTION = 2,
     DMB_TAKES_CONTACT = 4,
-    DMB_TAKES_LIMITS = 8,
+    DMB_TAKES_LIMITS = 8, /* stress; with the pose where pressures inside and outside differ */
     DMB_TAKES_MOTION = 16,
-    DMB_TAKES_BENDING = 32,
-    DMB_TAKES_BUCKLING = 64
+    DMB_TAKES_BENDING = 32, /* with the pose on axial-torsional pipes */
+    DMB_TAKES_BUCKLING = 64,
+    DMB_TAKES_PRESSURE = 128
 };
 
 /* Groups that a quantity DMB_PROFILE_... requires; -1 if there is no such quantity. */

@@ -44,7 +44,8 @@ static double time_of(const scene *s, dmb_sim *sim, int32_t quantity, uint32_t s
 
 static void compare(const scene *s, dmb_sim *sim)
 {
-    static const int32_t asked[4] = {DMB_PROFILE_EFFECTIVE_FORCE, DMB_PROFILE_BENDING_MOMENT, DMB_PROFILE_VON_MISES, -1};
+    static const int32_t asked[4] = {DMB_PROFILE_EFFECTIVE_FORCE, DMB_PROFILE_BENDING_MOMENT, DMB_PROFILE_VON_MISES,
+                                     -1};
     static const char *const names[4] = {"effective force", "bending moment", "von Mises stress", "all"};
     for (int i = 0; i < 4; i++)
         for (uint32_t stations = 101; stations <= 201; stations += 100) {

@@ -1,8 +1,10 @@
 /* Section forces by lanes: the same bits at every width, in profiles that go forward, back and sparsely and in single
- * questions; loads of the ends of elements against those computed one by one (eq:beam.section-force). */
+ * questions; loads of the ends of elements against those computed one by one (eq:beam.section-force). Each quantity
+ * alone, for which only its own terms are computed, against all of them. */
 #include <string.h>
 
 #include "close.h"
+#include "full_rig.h"
 #include "rig.h"
 
 #include "kernel/kernels.h"
@@ -151,10 +153,42 @@ static void end_loads_match_those_of_one_element(void **state)
     }
 }
 
+static void each_alone_is_as_with_all(void **state)
+{
+    enum { ALL = DMB_PROFILE_QUANTITIES };
+    (void)state;
+    for (int kind = 0; kind < 16; kind++) {
+        const full_rig_choice choice = {.friction_law = DMB_FRICTION_COULOMB,
+                                        .curved = kind & 1,
+                                        .rings_only = (kind & 3) == 2,
+                                        .sections = (kind >> 2) * 4};
+        static double all[STATIONS][ALL], one[STATIONS];
+        int32_t quantities[ALL];
+        dmb_profile profile = dmb_profile_default();
+        rig s;
+        full_rig_open(&s, &choice);
+        take_divided_steps(&s, 2e-4, 5);
+        for (int32_t q = 0; q < ALL; q++) quantities[q] = q;
+        profile.station_count = STATIONS;
+        profile.quantities = quantities;
+        profile.quantity_count = ALL;
+        profile.values = all[0];
+        must(&s, dmb_query_profile(s.sim, &profile));
+        profile.quantity_count = 1;
+        profile.values = one;
+        for (int32_t q = 0; q < ALL; q++) {
+            profile.quantities = &q;
+            must(&s, dmb_query_profile(s.sim, &profile));
+            for (int k = 0; k < STATIONS; k++) assert_memory_equal(one + k, all[k] + q, sizeof *one);
+        }
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_widths_and_orders_have_the_same_bits),
-                                       cmocka_unit_test(profiles_agree_with_questions),
-                                       cmocka_unit_test(end_loads_match_those_of_one_element)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_widths_and_orders_have_the_same_bits), cmocka_unit_test(profiles_agree_with_questions),
+        cmocka_unit_test(end_loads_match_those_of_one_element), cmocka_unit_test(each_alone_is_as_with_all)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
