@@ -16,23 +16,15 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
-static dmb_complex_array take(dmb_arena *arena, size_t count)
-{
-    dmb_complex_array array;
-    array.re = DMB_ARENA_DOUBLES(arena, count);
-    array.im = DMB_ARENA_DOUBLES(arena, count);
-    return array;
-}
-
 static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size links,
                     dmb_dynamic_stiffness *out)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
-    out->factors.diagonal = take(arena, layout->diag[layout->n]);
-    out->factors.lower = take(arena, layout->link[layout->n - 1]);
-    out->factors.upper = take(arena, layout->link[layout->n - 1]);
+    out->factors.diagonal = dmb_complex_lay_out(arena, layout->diag[layout->n]);
+    out->factors.lower = dmb_complex_lay_out(arena, layout->link[layout->n - 1]);
+    out->factors.upper = dmb_complex_lay_out(arena, layout->link[layout->n - 1]);
     out->factors.pivot = DMB_ARENA_ARRAY(arena, uint32_t, linear->rows);
-    out->prescribed = take(arena, linear->rows);
+    out->prescribed = dmb_complex_lay_out(arena, linear->rows);
     dmb_jointed_chains_lay_out(arena, linear, links, &out->links);
 }
 
@@ -337,14 +329,6 @@ dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *s, uint32_t node
 
 /* ---- Multipliers ------------------------------------------------------------------------------------------------- */
 
-static uint32_t active_rows(const dmb_sim *sim, const dmb_cluster *cluster)
-{
-    uint32_t count = 0;
-    for (uint32_t r = cluster->row; r < cluster->row + cluster->rows; r++)
-        count += sim->constraint_type[r] != DMB_ROW_IDLE;
-    return count;
-}
-
 /* C_d^T f = -(A x - f) in the dependent rows; `rest` in the order of dependent columns. */
 static void solve_multipliers(dmb_sim *sim, uint32_t k, double *rest, double *multipliers)
 {
@@ -355,7 +339,7 @@ static void solve_multipliers(dmb_sim *sim, uint32_t k, double *rest, double *mu
     dmb_partition_solve_transposed(&partition, lu, pivot, rest);
     memset(multipliers, 0, cluster->rows * sizeof(double));
     for (uint32_t i = 0; i < partition.rank; i++) multipliers[partition.row_order[i]] = rest[i];
-    if (partition.rank < active_rows(sim, cluster))
+    if (partition.rank < dmb_cluster_active_rows(sim, cluster))
         dmb_partition_least_norm(&(dmb_jacobian){sim->cluster_matrix + cluster->dense, cluster->columns, NULL},
                                  &partition, lu, pivot, sim->cluster_gram + cluster->square, multipliers);
 }

@@ -26,19 +26,11 @@ dmb_jointed_chains_size dmb_jointed_chains_sizes(const dmb_linear *linear)
     return size;
 }
 
-static dmb_complex_array take(dmb_arena *arena, size_t count)
-{
-    dmb_complex_array array;
-    array.re = DMB_ARENA_DOUBLES(arena, count);
-    array.im = DMB_ARENA_DOUBLES(arena, count);
-    return array;
-}
-
 void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size size,
                                 dmb_jointed_chains *out)
 {
     const dmb_scene *scene = &linear->scene;
-    out->multiplier = take(arena, size.rows);
+    out->multiplier = dmb_complex_lay_out(arena, size.rows);
     out->rest = DMB_ARENA_DOUBLES(arena, 2 * (size_t)size.rows);
     if (scene->cluster_count == 0) return;
     out->size = DMB_ARENA_ARRAY(arena, uint32_t, scene->block_count);
@@ -48,9 +40,9 @@ void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_
     out->pattern.upper = DMB_ARENA_ARRAY(arena, size_t, scene->pattern.entries);
     out->pattern.lower = DMB_ARENA_ARRAY(arena, size_t, scene->pattern.entries);
     for (int m = 0; m < 3; m++) out->blocks[m] = DMB_ARENA_DOUBLES(arena, scene->pattern.values);
-    out->matrix.values = take(arena, scene->pattern.values);
+    out->matrix.values = dmb_complex_lay_out(arena, scene->pattern.values);
     out->matrix.pivot = DMB_ARENA_ARRAY(arena, uint32_t, scene->pattern.rows);
-    out->solution = take(arena, size.count);
+    out->solution = dmb_complex_lay_out(arena, size.count);
     out->half = DMB_ARENA_DOUBLES(arena, (size_t)DMB_NODE_SIX_DOF * size.widest);
     out->stiffness = DMB_ARENA_DOUBLES(arena, size.count);
     out->mass = DMB_ARENA_DOUBLES(arena, size.count);

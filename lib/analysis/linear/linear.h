@@ -425,6 +425,14 @@ static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *
  * factored in the order of the scene's pattern. Its cost grows with the number of blocks, and with the cube of the
  * coordinates of one cluster. */
 
+static inline dmb_complex_array dmb_complex_lay_out(dmb_arena *arena, size_t count)
+{
+    dmb_complex_array array;
+    array.re = DMB_ARENA_DOUBLES(arena, count);
+    array.im = DMB_ARENA_DOUBLES(arena, count);
+    return array;
+}
+
 /* Sizes to begin with: `count`, the widest block, the most rows of constraint of a cluster. */
 typedef struct dmb_jointed_chains_size {
     uint32_t count, widest, rows;
