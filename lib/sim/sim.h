@@ -234,6 +234,10 @@ typedef struct dmb_drive_variables {
     X(double, bounce_own, u)                    /* [N, N m] mean force of the step: system/assemble/bounces */        \
     X(double, bounce_warmth, u)                 /* [W] dissipated by its damper: system/assemble/bounces */           \
     X(uint8_t, bounce_stays, u)                 /* 1: the next step has a mean force, too: system/bounce_end */       \
+    X(double, bounce_bias, u)                   /* [m/s, rad/s] rate of the place at the ends of steps with a mean    \
+                                                   force, less the speed: system/bounce_end */                        \
+    X(double, bounce_kick, ur)                  /* [m/s, rad/s] change of the velocity by laws that take over:        \
+                                                   system/bounce_end */                                               \
     X(double, bounce_taken, ur)                 /* [m/s2, rad/s2] acceleration by the mean forces:                    \
                                                    system/bounce_end */                                               \
     X(double, bounce_given, ur)                 /* [m/s2, rad/s2] acceleration by the forces of the laws:             \

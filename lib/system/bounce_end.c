@@ -54,11 +54,37 @@ static uint8_t stays(const dmb_evaluation *evaluation, uint32_t u, double invers
 {
     const dmb_sim *sim = evaluation->sim;
     const double h = evaluation->step, age = fabs(sim->bounce_age[u]);
-    if (sim->bounce_turns[u]) return (uint8_t)b->closed;
+    if (sim->bounce_turns[u]) return b->closed && dmb_bounce_is_unresolved(sim, u, h);
     if (!dmb_bounce_can_open(sim->scene, u)) return 0;
     if (!b->closed || (!dmb_unilateral_touches(a, b) && age + 1.0 >= DMB_BOUNCE_STEPS)) return 0;
     if (!dmb_unilateral_touches(a, b)) return sim->bounce_age[u] < 0.0;
     return (b->slope * h + dmb_bounce_damping(sim->scene, u)) * h * inverse_mass > DMB_BOUNCE_RESOLVED;
+}
+
+/* [-] Of h G: position minus mean velocity of a step with the mean force G (eq:unilateral.bias). */
+static double drift(const dmb_evaluation *evaluation)
+{
+    const double gamma = 1.0 / (evaluation->own_factor * evaluation->pseudo_factor);
+    return 0.25 * (gamma + 0.5) * (gamma + 0.5) / gamma - 0.5;
+}
+
+/* [N s, N m s] Impulse that the velocity lacks behind a mean force. */
+static double lacking(const dmb_evaluation *evaluation, uint32_t u)
+{
+    return -evaluation->step * drift(evaluation) * evaluation->sim->bounce_own[u] / evaluation->own_factor;
+}
+
+static void find_bias(dmb_evaluation *evaluation, uint32_t u)
+{
+    evaluation->sim->bounce_bias[u] = lacking(evaluation, u) * mobility(evaluation, u);
+}
+
+/* 1: a law that turns is followed from here on, behind steps with a mean force: the velocity gets its part. Not behind
+ * one that has opened: its mean force was in balance with nothing. */
+static int takes_over(const dmb_sim *sim, uint32_t u)
+{
+    const int ends = sim->bounce_mode[u] == DMB_BOUNCE_OWN && !sim->bounce_stays[u];
+    return sim->bounce_turns[u] && ends && sim->trial.bounce_force[u] != 0.0;
 }
 
 /* Adds the force of law u if it acts from here on. */
@@ -69,6 +95,9 @@ static void exchange(dmb_evaluation *evaluation, uint32_t u, const dmb_unilatera
     sim->bounce_stays[u] = stays(evaluation, u, inverse_mass, a, b);
     const double law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
     for (uint32_t i = 0; i < sim->scene->row_count; i++) given_of(sim)[i] -= law * sim->correction[i];
+    if (!takes_over(sim, u)) return;
+    const double impulse = lacking(evaluation, u);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->bounce_kick[i] += impulse * sim->correction[i];
 }
 
 static int32_t factor_mass(const dmb_evaluation *evaluation, dmb_evaluation *mass)
@@ -250,6 +279,9 @@ static void exchange_laws(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const uint32_t n = sim->scene->row_count;
     memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
+    memset(sim->bounce_kick, 0, n * sizeof(double));
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (sim->bounce_turns[u] && sim->bounce_mode[u] == DMB_BOUNCE_OWN) find_bias(evaluation, u);
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end a, b;
         sim->bounce_stays[u] = 0;
@@ -286,6 +318,10 @@ void dmb_bounces_add_accelerations(const dmb_sim *sim, double *acceleration)
 static void take_accelerations(dmb_sim *sim, double pseudo_factor)
 {
     dmb_bounces_add_accelerations(sim, sim->trial.acceleration);
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (takes_over(sim, u)) sim->trial.bounce_speed[u] += sim->bounce_bias[u];
+    if (laws_bounce(sim))
+        for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->trial.velocity[i] += sim->bounce_kick[i];
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         sim->trial.pseudo_acceleration[i] += pseudo_factor * taken_of(sim)[i] + given_of(sim)[i];
     }

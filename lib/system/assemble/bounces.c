@@ -169,15 +169,19 @@ void dmb_bounces_add_carried(const dmb_evaluation *evaluation, double *rows)
 
 /* ---- Course of a step -------------------------------------------------------------------------------------------- */
 
+/* 1: mean forces of a two-sided spring begin where it has no force, which then is not in the history. */
+static int begins(const dmb_sim *sim, uint32_t u)
+{
+    return sim->bounce_turns[u] && dmb_bounce_holds(sim->scene, u) && sim->now.bounce_force[u] == 0.0;
+}
+
 void dmb_bounces_begin(dmb_sim *sim, double step)
 {
     begin_sites(sim, step);
     *sim->laws_bounce = 0;
     dmb_bounces_mark_turning(sim, step, 0);
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
-        const int holds = sim->bounce_turns[u] && dmb_bounce_holds(sim->scene, u);
-        const int begins = holds && sim->now.bounce_force[u] == 0.0; /* it is not in the history */
-        sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 || begins ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
+        sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 || begins(sim, u) ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
     }
 }
 
@@ -187,7 +191,7 @@ static int opens(const dmb_sim *sim, uint32_t u)
 {
     dmb_unilateral_end a, b;
     if (sim->bounce_mode[u] != DMB_BOUNCE_LAW) return 0;
-    if (sim->bounce_turns[u]) return sim->now.bounce_force[u] != 0.0;
+    if (sim->bounce_turns[u]) return sim->now.bounce_force[u] != 0.0 || dmb_bounce_holds(sim->scene, u);
     if (!dmb_bounce_can_open(sim->scene, u)) return 0;
     dmb_bounce_ends(sim, u, &a, &b);
     if (!a.closed || sim->now.bounce_force[u] == 0.0) return 0;
@@ -205,7 +209,7 @@ int32_t dmb_bounces_open(dmb_sim *sim, double step)
     }
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         if (!opens(sim, u)) continue;
-        sim->bounce_mode[u] = DMB_BOUNCE_OPENS;
+        sim->bounce_mode[u] = begins(sim, u) ? DMB_BOUNCE_OWN : DMB_BOUNCE_OPENS;
         found = 1;
     }
     return found;

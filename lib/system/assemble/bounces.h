@@ -67,6 +67,9 @@ void dmb_bounces_turn(dmb_evaluation *evaluation);
 /* Marks the laws that a step of length h [s] does not resolve and whose gradient turns in it (bounce_turns), by the
  * speeds at its start, or as reached in the trial. They have mean forces (eq:unilateral.holding). */
 void dmb_bounces_mark_turning(dmb_sim *sim, double h, int reached);
+/* 1: the force of the law, or of another one of its joint, changes in the trial by another amount than by the rates of
+ * its place at both ends, which are the speeds and the bias of mean forces (eq:unilateral.bias). */
+int dmb_bounce_is_unresolved(const dmb_sim *sim, uint32_t u, double h);
 /* Node that a step with mean forces has turned much further than the speed at its start would: another solution of its
  * equations, about a turn away. DMB_NONE: none. */
 uint32_t dmb_bounces_overturn(const dmb_sim *sim, double h);
