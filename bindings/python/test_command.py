@@ -167,6 +167,8 @@ class CommandTest(FolderTest):
                          r"main turns by 0\.2\d rad a step: rates of its slow whirl and precession are off by up to "
                          r"[345]\S* %; a step of \S+ ms gives 1 %")
         self.assertTrue(any("rad a step" in one for one in summary["notes"]))
+        out, _ = self.answer("run", "--until", "0.5 s", "--step", "10 s")  # one step, to the end of the run
+        self.assertRegex(out, r"main turns by [\d.]+ rad a step: .* off by up to (100|\d\d) %")
         self.scene = self.write("rig.toml", SCENE.replace("[run]", '[compile]\npipe_kind = "axial-torsional"\n[run]',
                                                           1))
         self.assertNotIn("rad a step", self.answer("run", "--until", "0.2 s", "--step", "20 ms")[0])
@@ -427,6 +429,8 @@ class CommandTest(FolderTest):
         self.assertIn("this rig reaches 5.5 m: torque (rotate)", out)
         self.assertIn("thrust: not assessed, because [limits] has no push", out)
         self.assertIn("rig_limits_main.csv", summary["files"])
+        self.assertRegex(self.ask("torque-drag", self.scene, "--weight-on-bit", "800 kN"),
+                         r"\d{3,4} % of the helical buckling load")
         self.assertIn("exceeded at 6 m, the first depth", self.ask("torque-drag", self.scene, "--depths", "6 m"))
         self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 kN"\n')
         self.assertRegex(self.ask("torque-drag", self.scene),
@@ -453,8 +457,11 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3 - rubbed, 3)
         self.assertIn("free down to", out)
         self.assertNotIn("free as far as", out)
-        self.assertIn("free as far as the string goes", self.ask("stuck", self.scene, "--overpull", "10 kN",
-                                                                 "--stretch", "1 m"))
+        whole = 1e3 * 10e3 * 8 / (2.1e11 * area)  # [mm]
+        for stretch, noted in ((1.1 * whole, False), (1.3 * whole, True), (1000.0, True)):
+            found = self.ask("stuck", self.scene, "--overpull", "10 kN", "--stretch", f"{stretch} mm")
+            self.assertIn(f"free as far as the string goes: it would lengthen by {whole:.4g} mm, which is less", found)
+            self.assertEqual("check --stretch and --overpull" in found, noted, found)
         self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
         self.assertIn("nothing arrives", self.ask("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
         for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"],

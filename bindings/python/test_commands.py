@@ -104,6 +104,10 @@ class ShippedTest(FolderTest):
                                ('h1 = "2960 N"', "h1 = 0", "no load on the bit"),
                                ('h1 = "200 rpm"', "h1 = 0", "no rotation"),
                                ('"94 mm"', '"94 m"', "diameter = 94 m, which is unusual"),
+                               ('"94 mm"', '"94 in"', "pipes of 73 mm are narrow for their hole of 2388 mm"),
+                               ('h1 = "200 rpm"', 'h1 = "200 rad/s"', "rotation of up to"),
+                               ('h1 = "200 rpm"', 'h1 = "-200 rad/s"', "rotation of up to"),
+                               ('eccentricity = "1 mm"', 'eccentricity = "20 mm"', "eccentricity = 0.02 m, which is"),
                                ('h1 = "2960 N"', 'h1 = "300 kg"', "a unit of mass: its weight is taken"),
                                ('length = "1 m"', 'length = "10 m"', "divided into")):
             changed = text.replace(old, new).replace(old.replace('"', '"-', 1), new)
@@ -117,6 +121,43 @@ class ShippedTest(FolderTest):
                                                                                  'mass = "5 kg"\nrock_law = '
                                                                                  '"regenerative"\n')
         self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
+
+    def test_signs_of_load_and_feed(self):
+        """A load below 0 and a feed out of the hole are shown with their sign and warned of, and are no operation."""
+        from drillmbd import scene
+        from drillmbd.operating import operating
+        from drillmbd.scene.warned import warnings_of
+        from drillmbd.scene.words import describe
+        text = ('hole = {diameter = "94 mm"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\nbit = {load = '
+                '"%s"}\ndrive = {component = "x", time_function = "%s"}\n')
+        for load, feed, told, weight, speed in (
+                ("8 kN", "10 mm/s", [], 8e3, 0.01),
+                ("-8 kN", "10 mm/s", ["the load on the bit falls to -8 kN"], 0.0, 0.01),
+                ("8 kN", "-10 mm/s", ["the feed of -10 mm/s pulls"], 8e3, 0.0), ("0 kN", "-10 mm/s", [], 0.0, 0.0),
+                ("8 kN", "2 m/s", ["feed of up to 2 m/s"], 8e3, 2.0), ("8 kN", "0 mm/s", [], 8e3, 0.0)):
+            made = scene.loads(text % (load, feed))
+            found = [one for one in warnings_of(made) if "the load on" in one or "feed of" in one]
+            self.assertEqual(len(found), len(told), (load, feed, found))
+            for one, part in zip(found, told):
+                self.assertIn(part, one)
+            plan = operating(made)
+            self.assertEqual((plan.weight_on_bit, plan.feed), (weight, speed))
+            if load != "0 kN":
+                self.assertIn(f"{load} on the bit", str(describe(made, 0.0)[-1]))
+            if feed == "-10 mm/s":
+                self.assertIn(f"feed {feed}", str(describe(made, 0.0)[-1]))
+
+    def test_narrow_bits(self):
+        from drillmbd import scene
+        from drillmbd.scene.warned import warnings_of
+        text = ('hole = {diameter = "%s"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\n'
+                'bit = {diameter = "%s"}\n')
+        for hole, bit, told in (("94 mm", "92 mm", None), ("94 in", "92 mm", "the bit of 92 mm is narrow"),
+                                ("190 mm", "92 mm", "the bit of 92 mm is narrow"), ("180 mm", "92 mm", None),
+                                ("94 in", "0 mm", "pipes of 73 mm are narrow"), ("500 mm", "0 mm", None)):
+            found = [one for one in warnings_of(scene.loads(text % (hole, bit))) if "narrow" in one]
+            self.assertEqual(len(found), int(told is not None), found)
+            self.assertTrue(told is None or told in found[0], found)
 
     def test_load_that_nothing_bears(self):
         """A load on the bit without a drive along the string pushes it out of the hole, in `run` with status 0."""
@@ -142,6 +183,8 @@ class NonsenseTest(FolderTest):
                              ("rows of 2 numbers", "run", "--until", "1e7 s"),
                              ("must be a length", "torque-drag", "--depths", "\u00b2"),
                              ("must be >= 0", "torque-drag", "--block-weight", "-1 kN"),
+                             ("--weight-on-bit -1 kN: must be >= 0", "torque-drag", "--weight-on-bit", "-1 kN"),
+                             ("--torque-on-bit -1 N m: must be >= 0", "torque-drag", "--torque-on-bit", "-1 N m"),
                              ("must be > 0", "stuck", "--pull", "-1 kN"), ("must be > 0", "stuck", "--torque", "0 N m"),
                              ("at most 1e+12", "stuck", "--push", "1e300 N"),
                              ("2^63 - 1", "probability", "--seed", "9" * 25),

@@ -911,6 +911,19 @@ class BadFilesTest(unittest.TestCase):
         self.one('step = "1 ms"', 'step = "1 ms"\n[[output]]\nquantity = "spin"\nplace = {part = "main", pipe = 3}', 19,
                  "output[0].place.pipe", "0 .. 2")
 
+    def test_units_in_names_of_outputs(self):
+        """Values of a column are in SI: another unit in its head is refused, other words in brackets are a name."""
+        for name, quantity, unit in (("push [kN]", "hook-load", "N"), ("bit [rpm]", "bit-speed", "rad/s"),
+                                     ("depth [ft]", "bit-depth", "m"), ("depth [-]", "bit-depth", "m"),
+                                     ("push [s]", "hook-load", "N"), ("share [%]", "off-bottom", "-")):
+            self.one('step = "1 ms"', f'step = "1 ms"\n[[output]]\nname = "{name}"\nquantity = "{quantity}"\n'
+                     'place = "main"', 18, "output[0].name", f"the values are in {unit}; write",
+                     f"{name[:name.index('[')]}[{unit}]\"")
+        for name, quantity in (("push [N]", "hook-load"), ("torque [Nm]", "rotation-torque"), ("push", "hook-load"),
+                               ("push [rig]", "hook-load"), ("push [rod 3]", "hook-load"), ("[kN] push", "hook-load")):
+            self.assertEqual(problems(SMALL.replace('step = "1 ms"', f'step = "1 ms"\n[[output]]\nname = "{name}"\n'
+                                                    f'quantity = "{quantity}"\nplace = "main"')), [], name)
+
     def test_no_second_fault(self):
         """A misspelt table or name is one fault; the time function that is not used because of it is none. Alone it is
         one."""

@@ -220,6 +220,22 @@ class SurveyTest(unittest.TestCase):
             with self.assertRaisesRegex(scene.SceneError, part):
                 load("bare.txt", rows, "survey_columns = " + wrong)
 
+    def test_columns_against_the_heads_of_the_file(self):
+        """survey_columns that name fewer columns than the file has, or another unit than its heads."""
+        rows = "No,MD (ft),Drift,Dir,By\n1,0,80,10,x\n2,60,82,11,x\n3,120,84,12,x\n"
+        for columns, told in (('"", "depth [ft]", "inclination [deg]", "azimuth [deg]", ""', []),
+                              ('"", "depth [m]", "inclination [deg]", "azimuth [deg]", ""',
+                               ["column 2 (MD (ft)) is read in m, as survey_columns says"]),
+                              ('"", "depth [ft]", "inclination [deg]", "azimuth [deg]"',
+                               ["survey_columns names 4 of 5 columns"]),
+                              ('"depth [m]", "inclination [deg]", "azimuth [deg]"',
+                               ["depth is column 1 (No), inclination is column 2 (MD (ft)), azimuth is column 3 (Drift)"])):
+            found = [one.text for one in load("s.csv", rows, f"survey_columns = [{columns}]").remarks
+                     if "bends by" not in one.text and "tie-in" not in one.text]
+            self.assertEqual(len(found), len(told), found)
+            for one, part in zip(found, told):
+                self.assertIn(part, one)
+
     def test_remarks(self):
         def told(text, more=""):
             return " | ".join(one.text for one in load("s.csv", text, more).remarks)

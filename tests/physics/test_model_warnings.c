@@ -195,6 +195,62 @@ static void values_in_other_units(void **state)
     rig_close(&s);
 }
 
+/* The fields of a pipe, wall and environment beyond the usual, each named with its range; the ends are not. */
+static void unusual_values(void **state)
+{
+    static const struct {
+        size_t offset;
+        double inside[2], outside[2];
+        const char *field;
+    } cases[] = {{offsetof(dmb_pipe_def, young_modulus), {1e9, 1e12}, {2.1e8, 2.1e14}, "young_modulus"},
+                 {offsetof(dmb_pipe_def, density), {500.0, 25e3}, {78.5, 78500.0}, "density"},
+                 {offsetof(dmb_pipe_def, damping_time), {0.0, 0.01}, {0.1, 10.0}, "damping_time"},
+                 {offsetof(dmb_pipe_def, yield_strength), {0.0, 3e9}, {750.0, 750e9}, "yield_strength"},
+                 {offsetof(dmb_pipe_def, eccentricity), {0.0, 0.0073}, {0.02, 0.03}, "eccentricity"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        for (int side = 0; side < 4; side++) {
+            rig s;
+            dmb_pipe_def pipe = s1_pipe();
+            const double value = side < 2 ? cases[k].inside[side] : cases[k].outside[side - 2];
+            memcpy((char *)&pipe + cases[k].offset, &value, sizeof value);
+            rig_open(&s, 0.0, 0.0, -9.81);
+            (void)add_pipes(&s, &pipe, 2);
+            (void)rig_start(&s, NULL);
+            const char *found = strstr(text_of(&s), "which is unusual; usual are");
+            assert_int_equal(found != NULL, side >= 2);
+            if (side >= 2) expect_line(&s, cases[k].field);
+            rig_close(&s);
+        }
+}
+
+static void unusual_wall_and_mud(void **state)
+{
+    rig s;
+    dmb_wall_def wall = s1_hole();
+    dmb_environment_def mud = dmb_environment_def_default();
+    const dmb_pipe_def pipe = s1_pipe();
+    (void)state;
+    for (int beyond = 0; beyond < 2; beyond++) {
+        rig_open(&s, 0.0, 0.0, -9.81);
+        wall.mu_static = wall.mu_dynamic = beyond ? 30.0 : 1.0;
+        mud.fluid_density = beyond ? 12e3 : 2400.0;
+        mud.inner_density = beyond ? 9e3 : DMB_NOT_GIVEN;
+        (void)add_wall(&s, &wall);
+        (void)add_pipes(&s, &pipe, 2);
+        assert_int_equal(dmb_model_set_environment(s.model, &mud), DMB_OK);
+        (void)rig_start(&s, NULL);
+        if (!beyond) assert_null(strstr(text_of(&s), "unusual"));
+        if (beyond) {
+            expect_line(&s, "wall: mu_static = 30, which is unusual; usual are 0 .. 1.5; check value and unit");
+            expect_line(&s, "wall: mu_dynamic = 30");
+            expect_line(&s, "environment: fluid_density = 12000 kg/m3, which is unusual; usual are 0 .. 3000");
+            expect_line(&s, "environment: inner_density = 9000 kg/m3");
+        }
+        rig_close(&s);
+    }
+}
+
 /* ---- Mass of bent elements --------------------------------------------------------------------------------------- */
 
 /* A pipe described straight that a load bends, and the same described bent. */
@@ -228,7 +284,8 @@ int main(void)
         cmocka_unit_test(joints_at_a_right_angle), cmocka_unit_test(rim_that_lies_flat),
         cmocka_unit_test(drive_of_a_locked_joint), cmocka_unit_test(locked_free_joint_holds),
         cmocka_unit_test(strings_past_the_start),  cmocka_unit_test(strings_on_the_axis_miss_no_wall),
-        cmocka_unit_test(values_in_other_units),   cmocka_unit_test(bent_elements_are_told),
+        cmocka_unit_test(values_in_other_units),   cmocka_unit_test(unusual_values),
+        cmocka_unit_test(unusual_wall_and_mud),    cmocka_unit_test(bent_elements_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

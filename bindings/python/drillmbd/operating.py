@@ -8,7 +8,7 @@ from typing import Any
 from . import _structs, enums
 from .analysis import OPERATIONS, usual_operation
 from .scene import Scene
-from .scene.largest import largest_of
+from .scene.largest import largest_of, range_of
 
 #: Torque of the bit over a third of its diameter times its load, where the scene has no rock law (the bit-specific
 #: coefficient of sliding friction of Pessier and Fear 1992); between roller-cone and drag bits.
@@ -17,9 +17,9 @@ BIT_FRICTION = 0.5
 
 @dataclass
 class Operating:
-    """Magnitudes; None where the scene does not give them as numbers."""
+    """Largest values, of the rotation its magnitude; None where the scene does not give them as numbers."""
     rotation: float | None = None       #: [rad/s] of the rotation drive
-    feed: float | None = None           #: [m/s] of the feed drive
+    feed: float | None = None           #: [m/s] of the feed drive, into the hole
     weight_on_bit: float | None = None  #: [N]
     torque_on_bit: float = 0.0          #: [N m] estimated from the load and diameter of the bit
     estimated: bool = False             #: torque_on_bit is an estimate
@@ -36,9 +36,9 @@ def operating(scene: Scene) -> Operating:
             if fields.get("component", enums.X) == enums.RX and found.rotation is None:
                 found.rotation = value
             elif fields.get("component", enums.X) == enums.X and found.feed is None:
-                found.feed = value
+                found.feed = _ahead(time_functions, fields.get("time_function"))
         if name == "add_bit" and found.weight_on_bit is None:
-            found.weight_on_bit = _value(time_functions, fields.get("load"))
+            found.weight_on_bit = _ahead(time_functions, fields.get("load"))
             _estimate(found, fields)
     return found
 
@@ -46,6 +46,12 @@ def operating(scene: Scene) -> Operating:
 def _value(time_functions: list[Any], part: Any) -> float | None:
     """Of a time function by its id, whose low 24 bits are its number."""
     return largest_of(time_functions[part.index & 0xFFFFFF], time_functions) if part else None
+
+
+def _ahead(time_functions: list[Any], part: Any) -> float | None:
+    """The largest value > 0 of a time function, else 0: a feed into the hole, a load against it."""
+    found = range_of(time_functions[part.index & 0xFFFFFF], time_functions) if part else None
+    return None if found is None else max(0.0, found[1])
 
 
 def operations_of(plan: Operating) -> list[_structs.Operation]:

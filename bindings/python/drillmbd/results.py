@@ -176,6 +176,11 @@ def record(struct: Any) -> dict[str, Any]:
             and not (isinstance(value, list) and value and not isinstance(value[0], (int, float)))}
 
 
+def percent(share: float) -> str:
+    """Two digits, 770 % of 7.71."""
+    return f"{float(f'{100.0 * share:.2g}'):g} %"
+
+
 def file_name(name: str) -> str:
     from .scene.save import clean_name
     return clean_name(name)

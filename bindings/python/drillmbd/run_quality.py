@@ -7,7 +7,7 @@ from typing import Any
 
 from . import station
 from ._optional import need
-from .results import CommandOutput
+from .results import CommandOutput, percent
 from .enums import Status
 from .errors import Usage
 from .language import Foreign
@@ -61,6 +61,7 @@ class TurnAStep:
     def __init__(self, scene: Scene, sim: Sim, end: float, step: float) -> None:
         info = scene.model.info()
         bends = info.degrees_of_freedom > 2 * info.nodes
+        step = min(step, end - sim.time)
         self.sim, self.step, self.interval = sim, step, max(step, (end - sim.time) / SAMPLES)
         self.places = {name: station(scene.names[name], pipes - 1, 1.0)
                        for name, pipes in scene.pipes.items()} if bends else {}
@@ -99,7 +100,7 @@ class TurnAStep:
             if turn > TURN_NOTABLE:
                 out.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off "
                               "by up to "
-                                 f"{min(100.0, 100.0 * SLOW_WHIRL * turn * turn):.2g} %; a step of "
+                                 f"{percent(min(1.0, SLOW_WHIRL * turn * turn))}; a step of "
                                  f"{1e3 * TURN_NOTABLE / speed:.2g} ms gives 1 %. "
                                  "Rotation about a fixed axis is not affected")
 

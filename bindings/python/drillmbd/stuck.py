@@ -15,7 +15,8 @@ from .scene import Scene
 from .sim import Sim
 
 
-MOST = 1e12  #: [N, N m] a limit that no rig has
+MOST = 1e12     #: [N, N m] a limit that no rig has
+TOO_LONG = 1.2  #: measured stretch over that of the free string, up to which tolerances of pipes may explain it
 
 
 def _solve(of: Callable[[float], float], low: float, high: float) -> float:
@@ -49,10 +50,10 @@ def push_at_bit(sim: Sim, string: Any, thrust: float, **more: Any) -> tuple[floa
     return force, _row(sim, string, enums.OPERATION_SLACK_OFF, force - 1e-9 * (abs(force) + 1.0), **more)
 
 
-def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float | None:
+def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> tuple[float | None, float]:
     """[m] from the rig end that lengthens by stretch [m] under pull [N] more (Hooke, pipe by pipe, friction left out);
-    None where the whole string lengthens by less: it is free."""
-    length = 0.0
+    None where the whole string lengthens by less: it is free. And [m] by which the string lengthens up to there."""
+    length = reached = 0.0
     for name, arguments in scene.model.calls:
         if name != "add_pipes" or arguments[1].get("string") != string:
             continue
@@ -62,11 +63,11 @@ def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float
         run = arguments[0] * pipe.length
         soft = (pipe.length - pipe.joint_length) / pipe.length  # tool joints are rigid
         part = pull * soft * run / stiffness
-        if part >= stretch:
-            return float(length + run * stretch / part)
-        stretch -= part
+        if part >= stretch - reached:
+            return float(length + run * (stretch - reached) / part), stretch
+        reached += part
         length += run
-    return None
+    return None, reached
 
 
 def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
@@ -114,9 +115,13 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
         pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
         if not pull > 0.0 or not by > 0.0:
             raise Usage("--overpull and --stretch must be > 0")
-        length = free_length(scene, string, pull, by)
+        length, reached = free_length(scene, string, pull, by)
         result["free_length_m"] = length
-        out.say("free as far as the string goes: it would lengthen by less" if length is None
-                   else f"free down to {units.text(length, 'm')} from the rig end, friction left out")
+        out.say(f"free as far as the string goes: it would lengthen by {units.text(1e3 * reached, 'mm')}, which is less"
+                if length is None else f"free down to {units.text(length, 'm')} from the rig end, friction left out")
+        if by > TOO_LONG * reached:
+            out.note_text(f"the stretch of {units.text(1e3 * by, 'mm')} is more than a pull of "
+                          f"{units.text(pull / 1e3, 'kN')} lengthens the free string, which friction makes even less; "
+                          "check --stretch and --overpull")
     out.summary["stuck"] = result
     return out.finish()

@@ -11,7 +11,7 @@ from typing import Any
 from . import broomstick, enums, hydraulics, measured, rig_limits, section_fit
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
-from .results import RPM, CommandOutput, file_name, finite, friction_option, key_of, quantity
+from .results import RPM, CommandOutput, file_name, finite, friction_option, key_of, percent, quantity
 from .errors import Error, Usage
 from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
 from .profile import values_of
@@ -86,7 +86,7 @@ def torque_drag(scene: Scene, out: CommandOutput, options: Any) -> int:
 def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
     plan, notes = operating(scene), []
     if options.weight_on_bit is not None:
-        plan = with_weight(scene, plan, quantity(options.weight_on_bit, "N", "--weight-on-bit"))
+        plan = with_weight(scene, plan, _not_below_0(options.weight_on_bit, "N", "--weight-on-bit"))
         notes.append(f"weight on bit {units.scaled(plan.weight_on_bit or 0.0, 'N')}, as given")
     elif plan.weight_on_bit:
         notes.append(f"weight on bit {units.scaled(plan.weight_on_bit, 'N')}, the largest load of the bit in the scene")
@@ -94,7 +94,7 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
         notes.append(f"weight on bit 0 {units.unit('N')}, because the scene gives the bit no load; give "
                      "--weight-on-bit")
     if options.torque_on_bit is not None:
-        plan.torque_on_bit, plan.estimated = quantity(options.torque_on_bit, "N*m", "--torque-on-bit"), False
+        plan.torque_on_bit, plan.estimated = _not_below_0(options.torque_on_bit, "N*m", "--torque-on-bit"), False
         notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, as given")
     elif plan.estimated:
         notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, estimated: {BIT_FRICTION:g} x weight "
@@ -102,9 +102,7 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
     elif plan.weight_on_bit:
         notes.append(f"torque on bit 0 {units.unit('N m')}: it is not estimated for a bit with a rock law or without a "
                      "diameter; give --torque-on-bit")
-    block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
-    if block < 0.0:
-        raise Usage(f"--block-weight {options.block_weight}: must be >= 0")
+    block = _not_below_0(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
     if block:
         notes.append(f"hook loads include {units.scaled(block, 'N')} of block and top drive")
     operations = operations_of(plan)
@@ -114,6 +112,13 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
                  + ("" if plan.rotation and plan.feed else " (usual values where the scene gives none)"))
     return Settings(plan, operations, block, friction_option(options), _frictions(getattr(options, "frictions", None)),
                     ["; ".join(notes)])
+
+
+def _not_below_0(text: str, unit: str, option: str) -> float:
+    found = quantity(text, unit, option)
+    if found < 0.0:
+        raise Usage(f"{option} {text}: must be >= 0")
+    return found
 
 
 def _frictions(text: str | None) -> list[float]:
@@ -227,7 +232,7 @@ def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: 
     if row.lowest_force < 0.0:
         parts.append(f"largest compression {units.text(-row.lowest_force / 1e3, 'kN')} at "
                      f"{units.text(row.lowest_at, 'm')}, "
-                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at "
+                     + (f"{percent(row.helical_share)} of the helical buckling load at "
                         f"{units.text(row.buckled_at, 'm')}"
                         if math.isfinite(row.helical_share)
                         else "buckling not assessed, because a compressed part is not pressed to the wall"))
@@ -236,7 +241,7 @@ def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: 
     if row.helix_length > 0.0:
         parts.append(f"{units.text(row.helix_length, 'm')} of helix")
     if math.isfinite(row.yield_share):
-        parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {units.text(row.yield_at, 'm')}")
+        parts.append(f"stress {percent(row.yield_share)} of the yield strength at {units.text(row.yield_at, 'm')}")
     stretch = (units.text(row.stretch, "m", ".3g") if abs(row.stretch) >= 1.0
                else units.text(1e3 * row.stretch, "mm", ".3g"))
     parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force "

@@ -39,6 +39,8 @@ dmb_bent_elements dmb_find_bent(const dmb_sim *sim);
 /* Receives each warning, without end of line. */
 typedef void (*dmb_model_check_line_fn)(void *context, const char *text);
 void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_line_fn line, void *context);
+/* Warnings of values that are usual in another unit, or that no pipe, hole and mud has. */
+void dmb_unusual_values(const dmb_sim *sim, dmb_model_check_line_fn line, void *context);
 /* Warnings of pipes whose elements are too long for the bending stress of a string that lies on the wall. */
 void dmb_mesh_warnings(const dmb_model *model, dmb_model_check_line_fn line, void *context);
 

@@ -15,8 +15,6 @@
 #define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part lying on the wall */
 #define DMB_TOUCHES 1e-4         /* of the hole's radius: rounding of described diameters, 5 um in a hole of 94 mm */
 #define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
-#define DMB_WIDE_PIPE 10.0       /* [m] no pipe or hole is this wide in metres, but some are in millimetres */
-#define DMB_WIDE_HOLE 20.0       /* [m] */
 
 /* Receiver of the lines. */
 typedef struct sink {
@@ -224,46 +222,6 @@ static void bent_elements(const sink *to)
     say(to, &text);
 }
 
-/* ---- Units ------------------------------------------------------------------------------------------------------- */
-
-static void odd_value(const sink *to, const char *part, const char *field, double value, const char *unit,
-                      const char *meant)
-{
-    dmb_message text;
-    dmb_message_set(&text, "%s: %s = %g %s, which is unusual; fields are in SI units, was %s meant?", part, field,
-                    value, unit, meant);
-    say(to, &text);
-}
-
-static int is_within(double value, double low, double high)
-{
-    return value >= low && value <= high;
-}
-
-/* Values outside the range of pipes that match a usual pipe in another unit: softer than rubber, lighter than foam. */
-static void odd_pipes(const sink *to)
-{
-    const dmb_list *runs = &to->sim->model->runs;
-    for (uint32_t i = 0; i < runs->count; i++) {
-        const dmb_pipe_run *run = DMB_LIST_AT(dmb_pipe_run, *runs, i);
-        const dmb_pipe_def *pipe = &run->def;
-        dmb_message name;
-        dmb_pipes_text(&name, run->string, pipe);
-        if (pipe->outer_diameter > DMB_WIDE_PIPE)
-            odd_value(to, name.text, "outer_diameter", pipe->outer_diameter, "m", "mm");
-        if (pipe->kind == DMB_PIPE_RIGID) continue;
-        if (is_within(pipe->young_modulus, 30.0, 500.0))
-            odd_value(to, name.text, "young_modulus", pipe->young_modulus, "Pa", "GPa");
-        if (is_within(pipe->density, 1.2, 20.0)) odd_value(to, name.text, "density", pipe->density, "kg/m3", "g/cm3");
-    }
-}
-
-static void odd_hole(const sink *to)
-{
-    const double diameter = 2.0 * dmb_hole_radius(&to->scene->hole, 0.0);
-    if (diameter > DMB_WIDE_HOLE) odd_value(to, "wall", "diameter", diameter, "m", "mm");
-}
-
 /* ---- Hole -------------------------------------------------------------------------------------------------------- */
 
 /* [m] Largest penetration without a warning. In the described pose it is the precision of the description plus the
@@ -367,9 +325,8 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     unconstrained_parts(&to);
     small_masses(&to);
     bent_elements(&to);
-    odd_pipes(&to);
+    dmb_unusual_values(findings->sim, line, context);
     if (!to.scene->has_hole) return;
-    odd_hole(&to);
     outside_sideways(&to);
     outside_lengthwise(&to, 0);
     outside_lengthwise(&to, 1);

@@ -173,6 +173,8 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
     found = Found([], {}, {}, [], [] if head_row is None else _passed_over(head_row, places))
     for one in places:
         _settle_unit(one, found, rows, key)
+    if given is not None:
+        found.remarks += _against_own_heads(table, places, width, key)
     comma = _decimal_comma(table, places, rows)
     for row in rows:
         if any(any(row.cells[one.index:one.index + 1]) for one in places if one.column.unit):
@@ -181,6 +183,23 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
         _check_widths(width, rows, found, given is not None)
     if len(found.faults) > MOST_FAULTS:
         found.faults[MOST_FAULTS:] = [f"and {len(found.faults) - MOST_FAULTS} more lines are wrong"]
+    return found
+
+
+def _against_own_heads(table: Table, places: list[_Place], width: int, key: str) -> list[str]:
+    """Given heads that the heads of the file contradict: another unit, or columns that are counted from the wrong one."""
+    own = table.heads or next(iter(reversed(table.rows[:len(table.rows) - len(_from_numbers(table.rows))])), Row(0, []))
+    read = [(one, own.cells[one.index][:40]) for one in places if one.column.unit and one.index < len(own.cells)]
+    found = []
+    for one, head in read:
+        unit = _name_and_unit(head)[1]
+        if units.fits(unit, one.column.unit) and units.factor(unit, one.column.unit) != units.factor(one.unit,
+                                                                                                    one.column.unit):
+            found.append(f"column {one.index + 1} ({head}) is read in {one.unit}, as {key} says; is that its unit?")
+    if read and width < len(own.cells):
+        found.append(f"{key} names {width} of {len(own.cells)} columns, counted from the first: "
+                     + ", ".join(f"{one.column.key} is column {one.index + 1} ({head})" for one, head in read)
+                     + "; name columns that are not read, too, as \"\"")
     return found
 
 

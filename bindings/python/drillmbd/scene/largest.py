@@ -1,4 +1,4 @@
-"""The largest magnitude of a time function over all times."""
+"""The largest magnitude of a time function over all times, and its range."""
 from __future__ import annotations
 
 import bisect
@@ -31,10 +31,16 @@ def bounded(segments: Any, time_functions: Sequence[Any]) -> list[dict[str, Any]
 
 
 def largest_of(segments: Any, time_functions: Sequence[Any] = ()) -> float | None:
-    """The largest magnitude of a sum of segments over all times; None if a function of the caller is among them, or a
-    segment per revolution whose time function is not among `time_functions`. Steps and tables are added at the same
-    times, so that a step up and one down later do not add up; harmonics, segments per revolution and tables that repeat
-    count with their largest magnitude at any time."""
+    """The largest magnitude of a sum of segments over all times; None as of range_of."""
+    found = range_of(segments, time_functions)
+    return None if found is None else max(abs(found[0]), abs(found[1]))
+
+
+def range_of(segments: Any, time_functions: Sequence[Any] = ()) -> tuple[float, float] | None:
+    """The smallest and largest value of a sum of segments over all times; None if a function of the caller is among
+    them, or a segment per revolution whose time function is not among `time_functions`. Steps and tables are added at
+    the same times, so that a step up and one down later do not add up; harmonics, segments per revolution and tables
+    that repeat count with their largest magnitude at any time."""
     if time_functions:
         segments = bounded(segments, time_functions)
     segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment
@@ -42,11 +48,13 @@ def largest_of(segments: Any, time_functions: Sequence[Any] = ()) -> float | Non
     if not all(by_numbers(segment) for segment in segments):
         return None
     if len(segments) == 1 and segments[0].get("table"):
-        return float(max(abs(value) for _, value in segments[0]["table"]))
+        values = [float(value) for _, value in segments[0]["table"]]
+        return min(values), max(values)
     swing = sum(abs(segment.get("h1", 0.0)) for segment in segments if segment["kind"] == enums.SEGMENT_HARMONIC)
     swing += sum(max(abs(value) for _, value in segment["table"])
                  for segment in segments if segment["kind"] == enums.SEGMENT_PERIODIC)
-    return float(swing + max(abs(sum(_value_at(segment, time) for segment in segments)) for time in _times(segments)))
+    values = [sum(_value_at(segment, time) for segment in segments) for time in _times(segments)]
+    return float(min(values) - swing), float(max(values) + swing)
 
 
 def _times(segments: list[dict[str, Any]]) -> list[float]:

@@ -1,6 +1,7 @@
 """Questions of a scene file: options of the run, its outputs, the analyses."""
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
@@ -67,6 +68,15 @@ class Asked:
         if "quantity" in values and ("place" in values or "place" not in table):
             scene.outputs.append((str(name), values.get("place"), values["quantity"]))
             scene.output_units.append(self.loader.output_unit(values["quantity"], table.get("place")))
+            self._check_named_unit(path, str(name), scene.output_units[-1])
+
+    def _check_named_unit(self, path: Path, name: str, unit: str) -> None:
+        """A unit in brackets at the end of an output's name heads a column of values in SI."""
+        written = re.search(r"\[([^\[\]]+)\]$", name.strip())
+        if written and units.other_than(written[1], unit):
+            plain = f"{name[:name.rindex('[')].rstrip()} [{unit}]"
+            self.loader.problems.add(path + ("name",), name, f"names the unit {written[1]}, but the values are in "
+                                     f"{unit}; write \"{plain}\", and [results] units for tables in other units")
 
     def _analysis(self, kind: str) -> dict[str, Any]:
         table = self.loader.table((kind,))

@@ -77,6 +77,15 @@ def fits(unit: str, wanted: str) -> bool:
         return False
 
 
+def other_than(unit: str, wanted: str) -> bool:
+    """Whether a text is a unit, and another one than the wanted one: mm or s where values are in m."""
+    try:
+        known = unit == "-" or bool(_meanings(unit))
+    except UnitError:
+        return False
+    return known and not (fits(unit, wanted) and factor(unit, wanted) == factor(wanted, wanted))
+
+
 @functools.lru_cache(maxsize=2000)
 def _chosen(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str] | None:
     """Factor and remark for a unit as written, by the wanted kind; None where it is of another kind. Raises

@@ -8,6 +8,7 @@ from ..language import Foreign, phrase
 from ..sim import Sim
 from . import words
 from .content import Scene
+from .doubtful import doubtful
 
 
 def warnings_of(scene: Scene) -> list[str]:
@@ -15,7 +16,8 @@ def warnings_of(scene: Scene) -> list[str]:
     with scene.new_sim() as sim:
         return [phrase("line {line}: {place}: {text}", line=one.line, place=one.place, text=Foreign(one.text))
                 for one in scene.remarks] + [one.text() for one in scene.divided] + \
-            [phrase("not assessed: {reason}", reason=one) for one in words.trivial(scene)] + of_model(sim)
+            [phrase("not assessed: {reason}", reason=one) for one in words.trivial(scene)] + \
+            doubtful(scene) + of_model(sim)
 
 
 def of_model(sim: Sim) -> list[str]:

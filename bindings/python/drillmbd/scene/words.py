@@ -9,7 +9,7 @@ from .. import enums
 from ..language import Phrase, joined, phrase
 from .content import Scene
 from .fields import DEFINITIONS
-from .largest import bounded, largest_of
+from .largest import bounded, range_of
 from .segments import by_numbers
 from .survey import dogleg
 
@@ -159,7 +159,7 @@ def _bits(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
 
 
 def _operation(calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
-    found = [phrase("rotation {speed:.4g} rpm", speed=speed * 30.0 / math.pi) if component == enums.RX else
+    found = [phrase("rotation {speed:.4g} rpm", speed=abs(speed) * 30.0 / math.pi) if component == enums.RX else
              phrase("feed {speed:.4g} mm/s", speed=1e3 * speed) for component, speed in _speeds(calls)
              if component in (enums.RX, enums.X)]
     found += [phrase("{load:.4g} kN on the bit", load=_bit_load(calls, one) / 1e3) for one, in calls.get("add_bit", [])
@@ -168,7 +168,7 @@ def _operation(calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
 
 
 def _speeds(calls: dict[str, list[tuple[Any, ...]]]) -> list[tuple[int, float]]:
-    """Component and largest speed of the drives that prescribe a motion."""
+    """Component and speed of largest magnitude of the drives that prescribe a motion."""
     return [(one.get("component", int(enums.X)), _largest(calls, one["time_function"]))
             for one, in calls.get("add_drive", [])
             if "time_function" in one and one.get("kind", int(enums.DRIVE_MOTION)) != enums.DRIVE_LOAD]
@@ -187,8 +187,10 @@ def _ever(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> bool:
 
 
 def _largest(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> float:
-    """The largest magnitude of a time function; of one with a function of Python that of the others."""
-    return largest_of([one for one in _segments(calls, time_function) if by_numbers(one)]) or 0.0
+    """The value of largest magnitude of a time function, with its sign; of one with a function of Python that of the
+    others."""
+    low, high = range_of([one for one in _segments(calls, time_function) if by_numbers(one)]) or (0.0, 0.0)
+    return high if high >= -low else low
 
 
 def _segments(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> list[dict[str, Any]]:
