@@ -229,7 +229,7 @@ class SurveyTest(unittest.TestCase):
                               ('"", "depth [ft]", "inclination [deg]", "azimuth [deg]"',
                                ["survey_columns names 4 of 5 columns"]),
                               ('"depth [m]", "inclination [deg]", "azimuth [deg]"',
-                               ["depth is column 1 (No), inclination is column 2 (MD (ft)), azimuth is column 3 (Drift)"])):
+                               ["depth is column 1 (No), inclination is column 2 (MD (ft)), azimuth is column 3"])):
             found = [one.text for one in load("s.csv", rows, f"survey_columns = [{columns}]").remarks
                      if "bends by" not in one.text and "tie-in" not in one.text]
             self.assertEqual(len(found), len(told), found)

@@ -187,7 +187,7 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
 
 
 def _against_own_heads(table: Table, places: list[_Place], width: int, key: str) -> list[str]:
-    """Given heads that the heads of the file contradict: another unit, or columns that are counted from the wrong one."""
+    """Given heads that the heads of the file contradict: another unit, or columns counted from the wrong one."""
     own = table.heads or next(iter(reversed(table.rows[:len(table.rows) - len(_from_numbers(table.rows))])), Row(0, []))
     read = [(one, own.cells[one.index][:40]) for one in places if one.column.unit and one.index < len(own.cells)]
     found = []
