@@ -446,7 +446,7 @@ class Fmu(FolderTest):
         for text, given, version in (("no outputs", bare, 3), ("must be 2 or 3", loaded, 4)):
             with self.assertRaisesRegex(fmu.CannotExport, text):
                 fmu.export(given, self.folder / "no.fmu", version)
-        twice = scene.loads(SCENE.replace('"wall force"', '"bit speed [rad/s]"'))
+        twice = scene.loads(SCENE.replace('"wall force"', '"bit speed [N]"'))
         with self.assertRaisesRegex(fmu.CannotExport, "of its own"):
             fmu.export(twice, self.folder / "no.fmu")
         for text, name in ((SCENE.replace('initial = "0 rpm"', ""), "speed"),
