@@ -186,8 +186,8 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
         out.rejected = stepping->rejected;
         out.iterations = stepping->iterations;
     }
-    if (status < 0 && restore) { /* counters are restored too: a failing call changes nothing */
-        if (stepping->backed_up) dmb_state_restore(sim);
+    if (status < 0 && (restore || out.steps == 0)) { /* counters are restored too: a failing call changes nothing */
+        if (restore && stepping->backed_up) dmb_state_restore(sim);
         *sim->counters = stepping->counters;
         out.steps = 0;
     } else { /* rejected work counts */

@@ -37,7 +37,7 @@ typedef struct hunt {
     double crossing;   /* [s] of the first of them */
     double from;       /* [s] start of the step */
     int32_t equal;     /* 1: equal steps, which do not end at crossings */
-    int32_t looks;     /* 1: no such step is accepted yet, so that a failing call has changed nothing */
+    int32_t looks;     /* 1: no step is accepted yet */
 } hunt;
 
 static int32_t ask(dmb_sim *sim, gaps *found)
@@ -159,12 +159,20 @@ static void look_around(dmb_sim *sim, const gaps *now)
     }
 }
 
-/* [s] Time at which the first hold ends; INFINITY if none is active. */
-static double hold_end(const dmb_sim *sim)
+/* After the first step: until then a failing call has changed nothing. */
+static void look_first(hunt *h)
+{
+    if (h->looks) look_around(h->sim, &h->before);
+    h->looks = 0;
+}
+
+/* [s] Time at which the first hold ends of outputs that are beyond their levels; INFINITY if none is active. */
+static double hold_end(const dmb_sim *sim, const gaps *now)
 {
     double first = (double)INFINITY;
     for (uint32_t i = 0; i < sim->scene->event_count; i++)
-        if (isfinite(sim->event_since[i])) first = fmin(first, sim->event_since[i] + sim->scene->events[i].hold);
+        if (now->value[i] > 0.0 && isfinite(sim->event_since[i]))
+            first = fmin(first, sim->event_since[i] + sim->scene->events[i].hold);
     return first;
 }
 
@@ -346,7 +354,7 @@ static int32_t go(hunt *h)
 {
     dmb_sim *sim = h->sim;
     gaps now;
-    const double goal = fmin(h->end, hold_end(sim));
+    const double goal = fmin(h->end, hold_end(sim, &h->before));
     uint64_t crossed = 0;
     now = h->before;
     h->located = 0.0;
@@ -360,6 +368,7 @@ static int32_t go(hunt *h)
         if (status < 0) return status;
         if (crossed) crossed = crossings(h, &now);
     }
+    look_first(h);
     h->reported = reported_events(h, &now, crossed);
     if (!(h->reported & crossed)) h->located = 0.0;
     h->before = now;
@@ -440,13 +449,12 @@ static int32_t finish(hunt *h, int32_t status, dmb_event_report *event)
 
 static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report)
 {
-    hunt h = {.sim = sim, .end = time, .crossing = (double)NAN};
+    hunt h = {.sim = sim, .end = time, .crossing = (double)NAN, .looks = 1};
     int32_t status = check_report(event);
     if (status >= 0) status = dmb_stepping_begin(sim, report, &h.stepping);
     if (status >= 0) status = dmb_stepping_check(sim, "time", time, sim->clock->time);
     if (status >= 0) status = begin(&h);
     if (status < 0) return status;
-    look_around(sim, &h.before);
     const double start = sim->clock->time;
     h.wanted = dmb_advance_first(sim);
     while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.reported == 0) {
@@ -479,8 +487,7 @@ static int32_t look_at_step(void *context)
     hunt *h = context;
     gaps now;
     const int32_t status = ask(h->sim, &now);
-    if (h->looks) look_around(h->sim, &h->before);
-    h->looks = 0;
+    look_first(h);
     if (status < 0) return status;
     h->reported = reported_events(h, &now, crossings(h, &now));
     h->located = h->reported != 0 ? h->sim->clock->time - h->from : 0.0;

@@ -251,6 +251,36 @@ static void sliding_has_its_normal_force(void **state)
     steady_pull = 0.0;
 }
 
+/* [-] Calls of a law at a normal force of 1 N, which no contact point has. */
+static uint32_t asked_at_one;
+
+static int32_t at_its_normal_force(void *context, const dmb_friction_at *at, double force[2], double by_slip[4],
+                                   double by_normal[2], const dmb_law_memory *memory)
+{
+    asked_at_one += at->normal_force == 1.0;
+    return bristles(context, at, force, by_slip, by_normal, memory);
+}
+
+/* The stability of a static state with slip is that of friction at the normal force of each point: a law of the caller
+ * need not be proportional to it. */
+static void stability_has_its_normal_force(void **state)
+{
+    (void)state;
+    own_law = at_its_normal_force;
+    for (int scene = 0; scene < SCENES; scene++) {
+        law o = {0};
+        rig s = string_in_hole(scene, &o, 4);
+        dmb_static_options options = dmb_static_options_default();
+        options.slip_axial = 0.1;
+        options.slip_rotation = 1.0;
+        asked_at_one = 0;
+        (void)find_equilibrium(&s, &options);
+        assert_int_equal(asked_at_one, 0);
+        rig_close(&s);
+    }
+    own_law = NULL;
+}
+
 /* A law that fails in a query fails the query. */
 static void queries_fail_with_the_law(void **state)
 {
@@ -472,6 +502,7 @@ int main(void)
         cmocka_unit_test(statics_slide),
         cmocka_unit_test(the_state_is_saved),
         cmocka_unit_test(sliding_has_its_normal_force),
+        cmocka_unit_test(stability_has_its_normal_force),
         cmocka_unit_test(queries_fail_with_the_law),
         cmocka_unit_test(a_mesh_without_friction_calls_nothing),
         cmocka_unit_test(a_loop_dissipates),

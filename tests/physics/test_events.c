@@ -371,6 +371,40 @@ static void a_location_that_fails(void **state)
     end(&s);
 }
 
+/* A call whose first step fails changes nothing, where outputs begin beyond their levels and on either side of them. */
+static void a_first_step_that_fails(void **state)
+{
+    (void)state;
+    scene s = {0};
+    recorded_force record = {.replays = 1, .end = 10.0};
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_segment force = dmb_segment_default();
+    drive.kind = DMB_DRIVE_LOAD;
+    force.kind = DMB_SEGMENT_CALLBACK;
+    force.callback = force_of_record;
+    force.callback_context = &record;
+    force.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
+    (void)body_with(&s, DMB_X, &drive, &force);
+    event(&s, "beyond", DMB_OUTPUT_VELOCITY_X, s.body, DMB_EVENT_RISING, -1.0, 0.0);
+    event(&s, "held", DMB_OUTPUT_VELOCITY_X, s.body, DMB_EVENT_FALLING, 1.0, 5.0);
+    event(&s, "either", DMB_OUTPUT_VELOCITY_X, s.body, DMB_EVENT_EITHER, 0.5, 0.0);
+    start(&s, 1e-9);
+    for (int moved = 0; moved < 2; moved++) { /* before any call, and after one that has noted the sides */
+        const uint64_t before = hash_of(s.sim);
+        const double time = now(&s);
+        record.end = fmax(time, 1e-12);
+        assert_int_equal(dmb_sim_advance_to_event(s.sim, time + 3.0, NULL, NULL), DMB_ERR_CALLBACK);
+        assert_true(now(&s) == time);
+        assert_int_equal(hash_of(s.sim), before);
+        assert_int_equal(dmb_sim_steps_to_event(s.sim, 0.1, 3, NULL, NULL, NULL), DMB_ERR_CALLBACK);
+        assert_int_equal(hash_of(s.sim), before);
+        record.end = 10.0;
+        assert_int_equal(next(&s, time + 0.1), 0);
+        must(dmb_sim_step(s.sim, 0.3, NULL)); /* to other sides, which the next call notes */
+    }
+    end(&s);
+}
+
 /* A count of contacts that comes down to its level has not crossed it; and structs that are none. */
 static void down_to_the_level(void **state)
 {
@@ -415,6 +449,7 @@ int main(void)
         cmocka_unit_test(in_order),
         cmocka_unit_test(refused),
         cmocka_unit_test(a_location_that_fails),
+        cmocka_unit_test(a_first_step_that_fails),
         cmocka_unit_test(down_to_the_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -62,6 +62,18 @@ static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_f
     dmb_contact_frame_at(R, sim->trial.site_normal + 3 * (size_t)s, tangent, f);
 }
 
+/* [N] Normal force at which the caller's law is asked: it need not be proportional to it, laws of the library are. */
+static double called_normal_force(const dmb_scene *scene, const dmb_configuration *c, uint32_t site)
+{
+    dmb_site_force force;
+    if (scene->friction_law.kind != DMB_FRICTION_CALLBACK) return 1.0;
+    if (site < scene->site_count)
+        dmb_site_force_of(scene, c, site, &force);
+    else
+        dmb_axial_torsional_site_force(scene, c, site - scene->site_count, &force);
+    return force.normal_force;
+}
+
 /* Friction along and around per unit of normal force; 0: no slip. */
 static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
 {
@@ -71,7 +83,7 @@ static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, doub
     if (evaluation->dynamic) memcpy(v, sim->trial.site_slip + 2 * (size_t)s, sizeof v);
     if (law.kind == DMB_FRICTION_NONE || (v[0] == 0.0 && v[1] == 0.0)) return 0;
     if (evaluation->steady && dmb_scene_has_bristles(sim->scene)) law = dmb_sliding_law(&law);
-    dmb_friction_smooth(&law, 1.0, v, force, by_speed, by_normal);
+    dmb_friction_smooth(&law, called_normal_force(sim->scene, &sim->trial, s), v, force, by_speed, by_normal);
     return 1;
 }
 
@@ -459,26 +471,13 @@ void dmb_contacts_forget(dmb_sim *sim)
 /* [-] Deflection over the sticking limit, so that rounding does not make a sliding bristle stick. */
 #define DMB_SLIDING_BEYOND (1.0 + 1e-9)
 
-/* [N] Normal force at which the caller's law slides: its state may depend on it, that of bristles does not. */
-static double sliding_normal_force(const dmb_sim *sim, uint32_t site)
-{
-    const dmb_scene *scene = sim->scene;
-    dmb_site_force force;
-    if (scene->friction_law.kind != DMB_FRICTION_CALLBACK) return 1.0;
-    if (site < scene->site_count)
-        dmb_site_force_of(scene, &sim->now, site, &force);
-    else
-        dmb_axial_torsional_site_force(scene, &sim->now, site - scene->site_count, &force);
-    return force.normal_force;
-}
-
 /* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding; or the state of the caller's law. */
 static int32_t deflect(const dmb_sim *sim, uint32_t site, const double v[2], double *z, int32_t *sticks)
 {
     static const double none[DMB_FRICTION_STATES] = {0.0};
     dmb_friction_law local;
     const dmb_friction_law *law = dmb_contact_friction_law(sim->scene, &sim->now, site, &local);
-    const double N = sliding_normal_force(sim, site);
+    const double N = called_normal_force(sim->scene, &sim->now, site);
     const dmb_friction_at at = {N, {v[0], v[1]}, {v[0], v[1]}, law->mu_static, law->mu_dynamic};
     const dmb_friction_law sliding = dmb_sliding_law(law);
     const dmb_law_memory memory = {none, z, (double)INFINITY};
