@@ -306,7 +306,7 @@ class WordsTest(unittest.TestCase):
                      "time step 2 ms"):
             self.assertIn(part, told)
         self.assertEqual([one.split(":")[0] for one in words.trivial(rig)],
-                         ["no eccentricity of the pipes", "no drive along the string bears the load on the bit",
+                         ["no eccentricity of the pipes",
                           "no material damping of the pipes"])
         bare = scene.loads(SCENE.replace('survey_file = "%s"\n%s', 'direction = [0, 0, -1]'))
         self.assertIn("inclination 0 deg from the downward vertical", words.describe(bare, 0.0)[0])

@@ -420,6 +420,42 @@ static void what_will_fall(void **state)
     rig_close(&s);
 }
 
+/* A load on a bit that no drive and no support along the string bears. */
+static void what_is_pushed_out(void **state)
+{
+    rig s;
+    (void)state;
+    for (int held = 0; held < 5; held++) { /* by nothing, a drive, the rig end, the far end, another part */
+        rig_open(&s, 0.0, 0.0, -9.81);
+        const dmb_wall_def wall = s1_hole();
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = s1_pipe();
+        dmb_bit_def bit = dmb_bit_def_default();
+        dmb_drive_def drive = dmb_drive_def_default();
+        dmb_segment push = dmb_segment_default();
+        (void)add_wall(&s, &wall);
+        if (held == 2) def.start_free = DMB_FREE_RX;
+        if (held == 3) def.end_free = DMB_FREE_RX;
+        bit.string = drive.part = pipe.string = add_string(&s, &def);
+        (void)add_pipes(&s, &pipe, 3);
+        push.h0 = 1e4;
+        must_model(&s, dmb_model_add_time_function(s.model, &push, 1, &bit.load));
+        bit.diameter = 0.0;
+        must_model(&s, dmb_model_add_bit(s.model, &bit, NULL));
+        drive.component = held == 1 ? DMB_X : DMB_RX; /* the rotation does not hold it */
+        must_model(&s, dmb_model_add_drive(s.model, &drive, NULL));
+        dmb_spring_def spring = dmb_spring_def_default();
+        spring.place_a = dmb_station(pipe.string, 0, 0.0);
+        spring.offset_b[0] = -1.0;
+        spring.stiffness = 1e6;
+        if (held == 4) must_model(&s, dmb_model_add_spring(s.model, &spring, NULL));
+        (void)rig_start(&s, NULL);
+        const int told = strstr(text_of(&s), "no drive along it bears the load on its bit") != NULL;
+        if (told != (held == 0)) fail_msg("held %d: %s", held, text_of(&s));
+        rig_close(&s);
+    }
+}
+
 /* A free joint holds by its spring. */
 static void springs_hold(void **state)
 {
@@ -585,6 +621,7 @@ int main(void)
         cmocka_unit_test(branch),
         cmocka_unit_test(what_will_fall),
         cmocka_unit_test(springs_hold),
+        cmocka_unit_test(what_is_pushed_out),
         cmocka_unit_test(small_mass),
         cmocka_unit_test(pipe_outside_the_hole),
         cmocka_unit_test(lying_on_the_wall_is_fine),

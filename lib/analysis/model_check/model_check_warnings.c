@@ -162,6 +162,45 @@ static void unconstrained_parts(const sink *to)
     say(to, &text);
 }
 
+/* 1: parts whose force along a string is not looked into may bear a load on its bit. */
+static int other_parts(const dmb_scene *scene)
+{
+    return scene->joint_count + scene->callback_count + scene->spring_count + scene->force_count + scene->stuck_count +
+               scene->load_count >
+           0;
+}
+
+/* 1: a support or a drive holds the string along its axis. */
+static int is_held_along(const dmb_scene *scene, const dmb_string_map *string)
+{
+    const uint32_t start = scene->layout.row[string->start_node] + DMB_X,
+                   end = scene->layout.row[string->end_node] + DMB_X;
+    if (!scene->free_row[start] || !scene->free_row[end]) return 1;
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].node == string->start_node && scene->drives[i].component == DMB_X) return 1;
+    return 0;
+}
+
+/* Warns of a load on a bit that nothing but friction bears. */
+static void pushed_strings(const sink *to)
+{
+    dmb_message text, name;
+    const dmb_scene *scene = to->scene;
+    if (other_parts(scene)) return;
+    for (uint32_t i = 0; i < scene->string_count; i++) {
+        const dmb_string_map *string = scene->strings + i;
+        for (uint32_t k = 0; k < scene->bit_count; k++) {
+            if (scene->bits[k].node != string->end_node || scene->bits[k].load == DMB_NONE) continue;
+            if (is_held_along(scene, string)) continue;
+            dmb_message_set(&text,
+                            "%s: no drive along it bears the load on its bit, which pushes it out of the hole; add a "
+                            "drive with component = \"x\"",
+                            dmb_string_text(scene, i, &name));
+            say(to, &text);
+        }
+    }
+}
+
 /* Mass of a node [kg], and its smallest moment of inertia [kg m2], from rigid_mass and neighbouring elements. */
 static void mass_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass **rigid_mass, double out[2])
 {
@@ -323,6 +362,7 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     singular_joints(&to);
     idle_drives(&to);
     unconstrained_parts(&to);
+    pushed_strings(&to);
     small_masses(&to);
     bent_elements(&to);
     dmb_unusual_values(findings->sim, line, context);

@@ -47,25 +47,10 @@ def trivial(scene: Scene) -> list[str]:
     if calls.get("add_bit") and not any(one.get("rock_law") or _ever(calls, one.get("load"))
                                         for one, in calls["add_bit"]):
         found.append(phrase("no load on the bit: buckling and bit torque are not assessed; set load in [[bit]]"))
-    if pipes and any(_ever(calls, one.get("load")) for one, in calls.get("add_bit", [])) and not _bears_thrust(calls):
-        found.append(phrase("no drive along the string bears the load on the bit: the string is pushed out of the "
-                            "hole; add a [[drive]] with "
-                            "component = \"x\""))
     if pipes and not any(one.damping_time for one in pipes):
         found.append(phrase("no material damping of the pipes: vibrations do not decay by themselves; set damping_time "
                             "in [[string.pipes]]"))
     return found
-
-
-def _bears_thrust(calls: dict[str, list[tuple[Any, ...]]]) -> bool:
-    """Whether a drive, a support or another part may bear a thrust along the string."""
-    if any(calls.get(name) for name in ("add_joint", "add_spring", "add_force", "add_stuck", "add_constraint",
-                                        "add_body", "add_load")):
-        return True
-    if any(one.get("component", enums.X) == enums.X for one, in calls.get("add_drive", [])):
-        return True
-    free = [DEFINITIONS["string"](**one) for one, in calls.get("add_string", [])]
-    return any(not one.start_free & enums.FREE_X or not one.end_free & enums.FREE_X for one in free)
 
 
 def _calls(scene: Scene) -> dict[str, list[tuple[Any, ...]]]:
