@@ -1,7 +1,10 @@
 """Tests of how answers read in Python: arrays of numpy, mappings, parts by their names, lists where C has pointers."""
 import copy
+import inspect
 import pickle
+import types
 import unittest
+from importlib import import_module
 
 from shared_tests import needs
 
@@ -10,7 +13,10 @@ needs("numpy")
 import numpy as np  # noqa: E402
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import errors  # noqa: E402
+from drillmbd import _structs, errors  # noqa: E402
+from drillmbd._handle import Handle  # noqa: E402
+from drillmbd.analysis import Shaped  # noqa: E402
+from drillmbd.sim import SimAt  # noqa: E402
 
 
 class AnswersTest(unittest.TestCase):
@@ -134,6 +140,96 @@ class AnswersTest(unittest.TestCase):
         recorder.take()
         self.assertEqual(list(recorder._asdict()), ["time [s]", "drive_force of drive table [N m]",
                                                     "bit_speed [rad/s]"])
+
+    def test_every_answer_is_a_mapping(self):
+        """_asdict of every class of the package that is an answer: those with a frame and those that hold one of C, but
+        for scenes, runs and functions of the state."""
+        modules = ("analysis", "state_space", "sensitivity", "state_equation", "frames", "fatigue", "window",
+                   "recorder", "profile", "inputs", "sim", "model")
+        members = [one for name in modules for one in vars(import_module("drillmbd." + name)).values()]
+        classes = {one for one in members if inspect.isclass(one) and one.__module__.startswith("drillmbd") and
+                   not issubclass(one, mbd.Record)}
+        answers = {one for one in classes if hasattr(one, "frame") or issubclass(one, Handle) or
+                   one.__name__ == "InputLog"}
+        answers -= {Handle, mbd.Model, mbd.Sim, SimAt, Shaped, mbd.StateEquation}
+        found = self.answers()
+        self.assertEqual({type(one) for one in found} - answers, set())
+        self.assertEqual(answers - {type(one) for one in found}, set(), "an answer without an example here")
+        for one in found:
+            fields = one._asdict()
+            self.assertIs(type(fields), dict, type(one))
+            self.assertTrue(fields and all(isinstance(name, str) for name in fields), type(one))
+        for one in vars(_structs).values():
+            if inspect.isclass(one) and issubclass(one, mbd.Record) and one.c_name and "Segment" not in one.__name__:
+                self.assertEqual(list(one()._asdict()), one().keys(), one)
+
+    def answers(self):
+        """An answer of each class, with something in it."""
+        sim, middle = self.sim, mbd.station(self.string, 5, 0.5)
+        takers = [sim.recorder(["bit_speed"], 4), sim.profile_recorder([mbd.PROFILE_TORQUE], 3, 4),
+                  sim.window(["bit_speed"]), sim.fatigue([middle], curve_stress=1e8, slope=3.0),
+                  sim.string_fatigue(self.string, 10, curve_stress=1e8, slope=3.0)]
+        for one in takers:
+            one.take()
+        rest = self.at_rest()
+        excitation = mbd.Excitation(place=mbd.station(rest.string, 5, 0.5), component=mbd.Z)
+        outputs = [(mbd.station(rest.string, 5, 0.5), "vibration_z")]
+        bands, _ = rest.sim.speeds([mbd.Order(excitation=excitation)], outputs, [1e-3], speed_low=1.0, speed_high=30.0)
+        return takers + [sim.profile(self.string, 5), sim.torque_drag(depths=[5.0]),
+                         sim.torque_drag_profile("pick-up", 5), rest.sim.modes(count=3), rest.sim.buckling(follow=0),
+                         bands, rest.sim.response([excitation], outputs, points=4),
+                         rest.sim.state_space([excitation], outputs),
+                         rest.sim.state_space([], [], form=mbd.STATE_MATRICES), rest.sensitivity(), rest.log()]
+
+    def test_mappings_hold_their_answers(self):
+        rest = self.at_rest()
+        modes, buckling = rest.sim.modes(count=3), rest.sim.buckling(follow=0)
+        self.assertEqual(modes._asdict()["frequency"], [one.frequency for one in modes])
+        self.assertEqual(buckling._asdict(),
+                         {"factor": buckling.factors, "confirmed": [False] * len(buckling.factors)})
+        self.assertTrue(buckling.factors)
+        space = rest.sim.state_space([mbd.Excitation(place=rest.station, component=mbd.Z)],
+                                     [(rest.station, "vibration_z")])
+        for name, matrix in space._asdict().items():
+            np.testing.assert_array_equal(matrix, getattr(space, name))
+        matrices = rest.sim.state_space([], [], form=mbd.STATE_MATRICES)
+        self.assertEqual(list(matrices._asdict()), ["M", "damping", "K", "J", "R"])
+
+    def at_rest(self):
+        """A clamped pipe under a push, at rest."""
+        rest = types.SimpleNamespace()
+
+        def describe(push=-1e3):
+            model = mbd.Model()
+            rest.string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE, name="rods")
+            model.add_pipes(6, string=rest.string, length=1.0)
+            model.add_load(place=mbd.station(rest.string, 5, 1.0), force=(push, 0.0, 0.0), frame=mbd.FRAME_BODY)
+            model.compile()
+            return model
+
+        rest.sim = describe().sim()
+        rest.sim.static(lay_on_wall=0)
+        rest.station = mbd.station(rest.string, 5, 0.5)
+        self.addCleanup(rest.sim.close)
+
+        def sensitivity():
+            found = mbd.sensitivity_of(describe, {"push": -1e3})
+            found.step(1e-3)
+            return found
+
+        def log():
+            self.model_with_input = mbd.Model()
+            load = self.model_with_input.add_load(place=self.model_with_input.add_body(), force=(1.0, 0.0, 0.0))
+            self.model_with_input.add_input(name="push", part=load, target=mbd.TARGET_LOAD_FACTOR)
+            self.model_with_input.compile()
+            run = self.model_with_input.sim()
+            self.addCleanup(run.close)
+            kept = run.inputs.record(3)
+            run.inputs["push"] = 2.0
+            return kept
+
+        rest.sensitivity, rest.log = sensitivity, log
+        return rest
 
     def test_outputs_alike_in_recorder_and_window(self):
         window = self.sim.window(["bit_speed", ("table", "drive_force")])

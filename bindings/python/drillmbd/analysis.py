@@ -21,7 +21,7 @@ from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckRep
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .enums import COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OperationKind
 from .errors import Error, check
-from .frames import Columns, SpeedBands
+from .frames import Columns, SpeedBands, by_field
 from .outputs import output_text, outputs_of
 
 if TYPE_CHECKING:
@@ -286,9 +286,8 @@ class TorqueDrag:
 
     def _asdict(self) -> dict[str, list[Any]]:
         """The fields of all rows by name, with the number of the operation."""
-        rows = [(k, row) for rows in self.rows for k, row in enumerate(rows)]
-        names = [name for name in TorqueDragRow.field_docs if name not in ("struct_size", "reserved")]
-        return {"operation": [k for k, _ in rows], **{name: [getattr(row, name) for _, row in rows] for name in names}}
+        numbers = [k for rows in self.rows for k in range(len(rows))]
+        return {"operation": numbers, **by_field(TorqueDragRow, (row for rows in self.rows for row in rows))}
 
     def frame(self) -> Any:
         """All rows as a pandas frame with units in the names of its columns."""
@@ -379,6 +378,10 @@ class Buckling(Shaped):
             self._sure(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
             self.factors.append(value.value)
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The factors, rising, and whether each is confirmed."""
+        return {"factor": list(self.factors), "confirmed": [i < self.info.confirmed for i in range(len(self.factors))]}
+
     @mirrors("dmb_buckling_shape")
     def shape(self, mode: int, place: Place | Id) -> list[float]:
         """[m, rad] displacement and rotation of a section, world frame; six numbers"""
@@ -418,7 +421,7 @@ class Modes(Shaped):
 
     def _asdict(self) -> dict[str, list[Any]]:
         """The fields of all modes by name."""
-        return {name: [mode[name] for mode in self] for name in Mode().keys()}
+        return by_field(Mode, self)
 
     @property
     def frequencies(self) -> Any:

@@ -66,6 +66,11 @@ class Fatigue(Handle):
         snapshot = bytes(snapshot)
         self._sure(_lib.dmb_fatigue_restore(self._handle, snapshot, len(snapshot)))
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of the results by name, place by place."""
+        from .frames import by_field
+        return by_field(FatigueResult, (self.result(place) for place in range(self._count)))
+
     def frame(self) -> Any:
         """The places as a pandas frame, one row each, units in the names of its columns."""
         from .frames import frame_of
@@ -97,6 +102,10 @@ class StringFatigue:
     def results(self) -> list[FatigueResult]:
         """Of each of the pipes."""
         return [self.counter.result(i) for i in range(len(self.pipes))]
+
+    def _asdict(self) -> dict[str, list[Any]]:
+        """Numbers of the pipes, and the fields of their results by name."""
+        return {"pipe": list(self.pipes), **self.counter._asdict()}
 
     def frame(self) -> Any:
         """The pipes as a pandas frame, one row each, units in the names of its columns."""

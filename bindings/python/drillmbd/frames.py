@@ -1,7 +1,7 @@
 """Results as pandas frames, units in the names of their columns; lists that can become one."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Dict, List
 
 from ._optional import need
@@ -19,6 +19,10 @@ class SpeedBands(List[SpeedBand]):
         self.speeds: list[float] = []
         self.severity: list[float] = []
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of all bands by name."""
+        return by_field(SpeedBand, self)
+
     def frame(self) -> Any:
         """The bands as a pandas frame, one row each, units in the names of its columns."""
         return frame_of(SpeedBand, self)
@@ -32,10 +36,20 @@ class Columns(Dict[str, List[float]]):
     """Lists by name, all of one length: of stations along a string."""
     units: dict[str, str] = {}
 
+    def _asdict(self) -> dict[str, list[float]]:
+        """The lists by name."""
+        return dict(self)
+
     def frame(self) -> Any:
         """The lists as a pandas frame with units in the names of its columns."""
         return need("pandas").DataFrame({f"{name.replace('_', ' ')} [{self.units[name]}]": one
                                          for name, one in self.items()})
+
+
+def by_field(cls: Any, rows: Iterable[Any]) -> dict[str, list[Any]]:
+    """The fields of structs by name, a list each."""
+    kept = list(rows)
+    return {name: [row[name] for row in kept] for name in cls().keys()}
 
 
 def frame_of(cls: Any, rows: Sequence[Any], index: dict[str, Sequence[Any]] | None = None) -> Any:

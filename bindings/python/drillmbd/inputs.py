@@ -86,6 +86,11 @@ class InputLog:
         sim._log = self  # the memory lives as long as the sim may write to it
         sim._check(_lib.dmb_sim_record_inputs(sim._handle, self._records, capacity))
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of the records so far by name."""
+        from .frames import by_field
+        return by_field(InputRecord, self.take())
+
     def take(self) -> list[InputRecord]:
         """The records so far, copied."""
         count = _lib.dmb_sim_recorded_inputs(self._sim._handle) if self._sim._log is self else 0

@@ -180,13 +180,17 @@ class ProfileRecorder:
         need("numpy")
         return self._along
 
-    def frame(self) -> Any:
-        """A pandas frame with a row for each time and station, units in the names of its columns."""
+    def _asdict(self) -> dict[str, Any]:
+        """Time, distance along the string and quantities by column, an entry for each row and station."""
         rows, stations = len(self), self._shape[0]
         values = self.values.reshape(rows * stations, self._shape[1])
         table = {"time [s]": self.time.repeat(stations), "along the string [m]": need("numpy").tile(self.along, rows)}
         table.update((name, values[:, number]) for number, name in enumerate(self.columns))
-        return need("pandas").DataFrame(table)
+        return table
+
+    def frame(self) -> Any:
+        """A pandas frame with a row for each time and station, units in the names of its columns."""
+        return need("pandas").DataFrame(self._asdict())
 
     @property
     def time(self) -> Any:

@@ -64,6 +64,14 @@ class Sensitivity(Handle):
         self.sim._check(_lib.dmb_sensitivity_rows(self._handle, number, pose, velocity, byref(count)))
         return list(pose), list(velocity)
 
+    def _asdict(self) -> dict[str, dict[str, Any]]:
+        """Derivatives of poses and velocities in all rows, and the number of kinks, by the names of the parameters."""
+        found = {}
+        for name in self.names:
+            pose, velocity = self.rows(name)
+            found[name] = {"pose": pose, "velocity": velocity, "kinks": self.kinks(name)}
+        return found
+
     @mirrors("dmb_sensitivity_kinks")
     def kinks(self, parameter: int | str) -> int:
         """Steps so far in which the parameter was not smooth."""

@@ -70,6 +70,11 @@ class StateSpace(Handle):
         """A, B, C, D, as scipy.signal.StateSpace(*space.matrices) takes them"""
         return self.A, self.B, self.C, self.D
 
+    def _asdict(self) -> dict[str, Any]:
+        """The matrices by name: A, B, C, D; of STATE_MATRICES, which has none of these, M, damping, K, J, R."""
+        names = ("A", "B", "C", "D") if self.info.states else ("M", "damping", "K", "J", "R")
+        return {name: getattr(self, name) for name in names}
+
     @property
     def shapes(self) -> Any:
         """Motions of the coordinates of A by rows, shape (coordinates, rows)"""

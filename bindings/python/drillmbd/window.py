@@ -44,6 +44,11 @@ class Window(Handle):
         self._sure(_lib.dmb_window_get(self._handle, output, byref(answer)))
         return answer
 
+    def _asdict(self) -> dict[str, list[Any]]:
+        """The fields of the results by name, output by output."""
+        from .frames import by_field
+        return by_field(WindowResult, (self.result(output) for output in range(self._count)))
+
     @mirrors("dmb_window_reset")
     def reset(self) -> None:
         """Forgets all samples."""
