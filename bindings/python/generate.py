@@ -156,7 +156,7 @@ class Reader:
         end = len(self.text[:place].rstrip(" "))
         begin = self.text.rfind("/*", 0, end) if self.text.endswith("*/\n", 0, end) else end
         text = words(self.text[begin:end]) if begin < end else ""
-        return re.sub(r"^---- .*?-{4,} ?(\* )?", "", text)
+        return re.sub(r"^(---- )?[^-]*? -{5,} ?", "", text)
 
     def enums(self):
         """[(class name, [(member, value, text)])]; the members of one enum that begin differently are apart."""

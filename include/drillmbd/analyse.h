@@ -3,7 +3,6 @@
 #define DRILLMBD_ANALYSE_H
 #include "ask.h"
 DMB_C_BEGIN
-
 /* Analyses use the accepted state of a sim and leave it unchanged unless stated otherwise; the sim has their message. Results are
  * opaque: _destroy gives their memory back, sets the pointer to NULL and accepts NULL. options and report may be NULL. Memory
  * comes from the sim's allocator, until _destroy or the end of the call. One thread at a time may use a sim or a result. Errors
@@ -14,7 +13,6 @@ DMB_C_BEGIN
  * Same bits: steps and all that is read off a state have the same bits in any number of threads; so have statics, paths,
  * buckling, responses, stepped sine and safe speeds, which call no BLAS. Modes, and `condition` of a model check, have LAPACK's
  * digits (examples/README.md, Reproducibility). */
-
 /* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run continues without a
  * transient. Time functions that change count with their speed at that time. */
 enum {
@@ -66,19 +64,18 @@ typedef struct dmb_static_report {
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, or, where
- * motion drives move, in a steady motion (`steady`). lib/theory/statics.md has the strategies, from Newton to relaxation, and
- * the forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy
- * ledger restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis
- * sum to 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE:
- * its stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message
- * says which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with an eccentric mass, pre-bent pipe or load
- * across that turns with its part, RIGID with gravity, loads, supports, joints or a hole off the axis); the state is then that
- * before the call. O(elements) an iteration. */
+ * motion drives move, in a steady motion (`steady`). lib/theory/statics.md has the strategies, from Newton to relaxation, and the
+ * forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy ledger
+ * restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis sum to
+ * 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE: its
+ * stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message says
+ * which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with an eccentric mass, pre-bent pipe or load across
+ * that turns with its part, RIGID with gravity, loads, supports, joints or a hole off the axis); the state is then that before
+ * the call. O(elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------- */
-/* The loads that grow with the factor of a buckling analysis or of a path, on top of the present ones; factor 0 is the
- * present. */
+/* The loads that grow with the factor of a buckling analysis or of a path, on top of the present ones (factor 0). */
 enum {
     DMB_SCALE_ALL = 0, /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
     DMB_SCALE_LOADS = 1, /* the same without gravity */
@@ -90,10 +87,8 @@ typedef struct dmb_buckling_options {
     int32_t scale; /* DMB_SCALE_..., default DMB_SCALE_LOADS */
     int32_t follow; /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone */
     dmb_id part; /* load or drive of DMB_SCALE_PART */
-    double factor_max, tolerance; /* [unit of the factor; -] largest factor that is sought, > 0; relative, of factors, 1e-15 ..
-        0.1; default 1e12, 1e-10 */
-    double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): moves the string by a millionth
-        of an element */
+    double factor_max, tolerance; /* [unit of the factor; -] largest sought, > 0; relative, 1e-15 .. 0.1; default 1e12, 1e-10 */
+    double step; /* [unit of the factor] difference for the change of the stiffness; 0 (default): strings move by 1e-6 elements */
     double slip_axial, slip_rotation; /* [m/s; rad/s] friction as in dmb_static_options, the stiffness is unsymmetric then */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
@@ -145,9 +140,9 @@ typedef struct dmb_buckling dmb_buckling; /* critical factors and shapes */
  * DMB_NOTE_EXTRAPOLATED: some of the factors are not confirmed; DMB_NOTE_STOPPED: fewer than `count` lie below factor_max or can
  * be found (beyond a limit point none can; without a factor the message says how far the equilibria stay stable). Errors:
  * DMB_ERR_ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is
- * free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint;
- * a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it). Some 40 counts a factor and
- * 10 to 100 iterations of the path, each O(elements); memory: the sim's twice more and 3 matrices. */
+ * free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a
+ * state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it). Some 40 counts a factor and 10
+ * to 100 iterations of the path, each O(elements); memory: the sim's twice more and 3 matrices. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
@@ -247,16 +242,15 @@ DMB_SIZED_STRUCT(dmb_check_report)
  * partition the sim steps with (a warning if they differ). Calls the callbacks of constraints. Cost: elements, and the cube of
  * the coordinates of each cluster. Errors: DMB_ERR_CALLBACK, _SINGULAR. */
 DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report);
-/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by name
- * (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be
- * NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL if the text is cut. Errors
- * as dmb_analysis_check. */
+/* The same (errors too) as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by
+ * name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may
+ * be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL: it is cut. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 /* Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of
  * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress of an element between two points of contact over the yield strength
  * (yield_strength, else a strain of 0.003). It falls with the square of the length of the elements. error [-], shape (capacity):
- * by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned
- * of by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; any number of threads. O(elements). */
+ * by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of
+ * by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; any number of threads. O(elements). */
 DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity);
 
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------- */
@@ -271,7 +265,6 @@ enum {
 /* Free vibration M d'' + C d' + K d = 0, d small body-frame displacements, with everything that acts in the state: preload, wall,
  * friction, joints, drives, and the gyroscopic terms of a steady rotation. */
 typedef struct dmb_modes dmb_modes;
-
 enum { DMB_MODES_UNDAMPED = 0, /* M d'' + K d = 0 */ DMB_MODES_DAMPED = 1 /* with C: damping and gyroscopic terms */ };
 enum { DMB_MODES_LOWEST = 0, DMB_MODES_ALL = 1, DMB_MODES_BAND = 2 };
 /* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin and |w -
@@ -431,10 +424,9 @@ DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t exc
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const dmb_sim *sim, const char *path);
 
 /* ---- Stepped sine -------------------------------------------------------------------------------------------------
- * Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open,
- * friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's
- * speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run
- * in parallel with the same bits. */
+ * Response in time to the scene's own time functions at one frequency, where the linear one fails: contacts that open, friction
+ * that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed),
+ * and transfer the state by dmb_sim_transfer_state. Different sims may run in parallel, with the same bits. */
 typedef struct dmb_stepped_sine_options {
     uint32_t struct_size, steps_per_period; /* [-] 16 .. 1e6; default 100: frequency error about (2 pi/this)^2/12 */
     uint32_t periods, windows; /* [-] of a window, 1 .. 1e4, more than 1 where multiples of the period are awaited; windows at
@@ -490,10 +482,8 @@ typedef struct dmb_speeds_options {
     int32_t friction, reserved; /* 1: as of a response; 0 (default): left out: while a string turns, its slope is close to 0 */
     double contact_gap, structural_damping, equilibrium_tolerance; /* [m; -; -] as of a response, same defaults */
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
-    const void *unused; /* NULL */
-    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a
-        static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses
-        are out of balance there (equilibrium_tolerance) */
+    double spin; /* [rad/s] as of dmb_response_options; default 0. After a static state with slip_rotation of this speed and
+        friction 1 the string lies where friction carries it; eccentric masses are out of balance there: equilibrium_tolerance */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
 typedef struct dmb_speed_band {
@@ -510,8 +500,8 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on
  * entry is the capacity, the struct_size of the first holds for all; on return the number of bands, by rising speed,
  * DMB_NOTE_FULL where more were found. severity, shape (points), may be NULL: largest within half a step of the grid around each
- * speed. DMB_NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band
- * is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors as
+ * speed. DMB_NOTE_INCOMPLETE (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band is
+ * truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors as
  * dmb_analysis_response. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits, uint32_t output_count,
@@ -519,10 +509,10 @@ DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *opti
 
 /* ---- State space --------------------------------------------------------------------------------------------------
  * M d'' + C d' + K d = f about a state, as a frequency response has it, in first order: x' = A x + B u, y = C x + D u; C (i w -
- * A)^-1 B + D is the frequency response. x: displacements and speeds of `coordinates`, then the states of inputs, in their
- * order: the integral of the target of a controller with integral gain, the displacement of a motion drive. u: changes of the
- * inputs, y: of the outputs, both from the state. With joints the coordinates are independent ones. All terms of C and K act,
- * unsymmetric ones (gyroscopic, friction, followers) too. */
+ * A)^-1 B + D is the frequency response. x: displacements and speeds of `coordinates`, then the states of inputs, in their order:
+ * the integral of the target of a controller with integral gain, the displacement of a motion drive. u: changes of the inputs, y:
+ * of the outputs, both from the state. With joints the coordinates are independent ones. All terms of C and K act, unsymmetric
+ * ones (gyroscopic, friction, followers) too. */
 enum {
     DMB_STATE_FULL = 0, /* all coordinates */
     DMB_STATE_REDUCED = 1, /* amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input,
@@ -570,7 +560,6 @@ DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_opt
                                          dmb_state_space **space);
 DMB_API void dmb_state_space_destroy(dmb_state_space **space);
 DMB_API int32_t dmb_state_space_get_info(const dmb_state_space *space, dmb_state_space_info *info);
-
 enum {
     DMB_MATRIX_A = 0, /* shape (states, states) */
     DMB_MATRIX_B = 1, /* shape (states, inputs) */
@@ -606,7 +595,6 @@ enum {
 /* values NULL: *count is the length of the array. Else *count on entry is the capacity (too little is DMB_ERR_VALUE) and on
  * return the number written. */
 DMB_API int32_t dmb_analysis_array(dmb_sim *sim, int32_t array, double *values, uint64_t *count);
-
 enum { DMB_ROW_FREE = 0, DMB_ROW_HELD = 1, DMB_ROW_DRIVEN = 2 };
 typedef struct dmb_row {
     uint32_t struct_size;
@@ -626,16 +614,15 @@ DMB_API int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t f
 DMB_API int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
 
 /* ---- Sensitivities ------------------------------------------------------------------------------------------------ */
-/* Derivatives of the state and of any output by chosen parameters, along a run (eq:sensitivity.step). A parameter is given by
- * two sims besides the one that runs: the same scene with the parameter a little lower and a little higher, brought to the same
- * time in the same way (created; or settled by dmb_analysis_static). So anything that can be described can be one (a coefficient
- * of friction, a diameter, the energy of the rock, a value of a time function, the survey); of sims of one model, an initial
- * speed or the values of dmb_sim_set_drive, _set_input. */
+/* Derivatives of the state and of any output by chosen parameters, along a run (eq:sensitivity.step). A parameter is given by two
+ * sims besides the one that runs: the same scene with the parameter a little lower and a little higher, brought to the same time
+ * in the same way (created; or settled by dmb_analysis_static). So anything that can be described can be one (a coefficient of
+ * friction, a diameter, the energy of the rock, a value of a time function, the survey); of sims of one model, an initial speed
+ * or the values of dmb_sim_set_drive, _set_input. */
 typedef struct dmb_sensitivity dmb_sensitivity; /* derivatives of one run */
 typedef struct dmb_parameter {
     uint32_t struct_size;
-    int32_t one_sided; /* 1: steps are taken on the high side only, at half the cost, errors of first order in `step`, not of
-        second; default 0 */
+    int32_t one_sided; /* 1: steps on the high side only, half the cost, errors of first order in `step`, not second; default 0 */
     double step; /* [unit of the parameter] > 0: `high` has it this much above the sim, `low` this much below. Quantities that
         depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt */
     const dmb_sim *low; /* only read, and only by dmb_sensitivity_create */
@@ -651,15 +638,14 @@ DMB_SIZED_STRUCT(dmb_parameter)
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
 DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
-/* dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as
- * it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by
- * dmb_sim_set_drive only; inputs stay as they were set when this was made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact,
- * a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes
- * and errors as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; _SINGULAR: the iteration
- * matrix at the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an
- * evaluation, two solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of
- * four parameters, one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places and callers'
- * forces. */
+/* dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it
+ * was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by
+ * dmb_sim_set_drive only; inputs stay as they were set when this was made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact, a
+ * sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and
+ * errors as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; _SINGULAR: the iteration matrix at
+ * the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two
+ * solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of four parameters,
+ * one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places and callers' forces. */
 DMB_API int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report);
 DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report);
 /* Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the output over
@@ -722,8 +708,7 @@ typedef struct dmb_operation {
     uint32_t struct_size, reserved;
     double axial_speed, rotary_speed; /* [m/s; rad/s] along the hole, > 0 into it; about its axis; friction is along their sum at
         the pipe's surface; default 0 */
-    double weight_on_bit, torque_on_bit; /* [N; N m] against the string's end, along the hole; >= 0, against the rotation; default
-        0 */
+    double weight_on_bit, torque_on_bit; /* [N; N m] on the string's end, towards the rig; against rotation, >= 0; default 0, 0 */
 } dmb_operation;
 DMB_SIZED_STRUCT(dmb_operation)
 /* Usual speeds of an operation DMB_OPERATION_...: 0.1 m/s up or down, 1 rev/s, 0.005 m/s while drilling; loads on the bit 0. */
@@ -775,7 +760,6 @@ DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_opt
 DMB_API int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_drag_options *options,
                                                  const dmb_operation *operation, uint32_t station_count, double *depth,
                                                  double *axial_force, double *torque, double *wall_force);
-
 enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
 /* The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m] measured at the
  * rig in one operation at the first of the depths. Errors as dmb_analysis_torque_drag; DMB_ERR_VALUE where none does: the message
@@ -795,9 +779,8 @@ typedef struct dmb_hydraulics {
     double reynolds; /* [-] largest of bore, annulus and trip */
 } dmb_hydraulics;
 DMB_SIZED_STRUCT(dmb_hydraulics)
-/* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by at most
- * its length, in steady flow, without gel strength (Burkhardt 1961); trip speeds 0 .. 10 m/s. Errors: DMB_ERR_UNSUPPORTED without
- * a flow_rate. O(length / 2 m). */
+/* Pressures of mud with the string's far end at a measured depth [m], beyond its start_depth by at most its length, in steady
+ * flow without gel strength (Burkhardt 1961); trip speed 0 .. 10 m/s. DMB_ERR_UNSUPPORTED: no flow_rate. O(length / 2 m). */
 DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer);
 
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------
@@ -813,8 +796,7 @@ typedef struct dmb_fatigue_options {
     double concentration; /* [-] factor on the stress, >= 1; default 1 */
     double curve_stress, curve_cycles; /* [Pa; -] amplitude borne for curve_cycles, > 0; the user's, no default; cycles 1e6 */
     double slope, endurance; /* [-; Pa] 1 .. 50, the user's, no default; amplitudes up to this do no damage, >= 0, default 0 */
-    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): the mean does
-        not count */
+    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): without */
 } dmb_fatigue_options;
 DMB_SIZED_STRUCT(dmb_fatigue_options)
 typedef struct dmb_fatigue_result {

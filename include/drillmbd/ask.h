@@ -61,9 +61,7 @@ DMB_SIZED_STRUCT(dmb_contact)
 DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact);
 typedef struct dmb_contact_total {
     uint32_t struct_size, closed; /* [-] contact points that touch */
-    double normal_force; /* [N] sum over the contact points */
-    double friction[2]; /* [N] sum of the friction components */
-    double deepest; /* [m] largest penetration, >= 0 */
+    double normal_force, friction[2], deepest; /* [N; N; m] sum over points; sum by component; largest penetration, >= 0 */
 } dmb_contact_total;
 DMB_SIZED_STRUCT(dmb_contact_total)
 /* O(contact points). */
@@ -71,8 +69,7 @@ DMB_API int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *s
 /* [J] kinetic energy of one pipe of a string with half of the parts fixed to its two ends, or of a body. */
 DMB_API int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy);
 typedef struct dmb_energy {
-    uint32_t struct_size;
-    int32_t reserved;
+    uint32_t struct_size, reserved;
     double kinetic, strain; /* [J] now; now, of flexible pipes, springs and stops of joints */
     double gravity, contact; /* [J] now; gravity 0 at time 0 as described; contact stored in the wall's stiffness */
     double drives; /* [J] work put in by all drives since the start */
@@ -81,8 +78,7 @@ typedef struct dmb_energy {
     double impact; /* [J] dissipated by the damping of the normal law and of stops, and by dmb_sim_set_joint: impulses, springs
         released less those engaged, so it may be negative */
     double damping, rock; /* [J] dissipated by material and external damping and dampers of joints; spent at the bit */
-    double scheme; /* [J] taken out by the time integration: work of its discrete forces less change of energies
-        (eq:motion.work) */
+    double scheme; /* [J] taken out by the integration: work of its discrete forces less change of energies (eq:motion.work) */
     double input; /* [J] integral of the sum of each drive's |power| and of |power| of all loads */
     double balance; /* [J] input and changes of energy that physics leaves open: scheme + unexplained */
     double unexplained; /* [J] balance - scheme: from unconverged iterations only */
@@ -96,8 +92,7 @@ DMB_API int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy);
 typedef struct dmb_momentum {
     uint32_t struct_size, reserved;
     double linear[3], angular[3]; /* [kg m/s; kg m2/s] linear; angular about the world's origin; world frame */
-    double mass; /* [kg] */
-    double centre[3]; /* [m] centre of mass, world frame */
+    double mass, centre[3]; /* [kg; m] of all parts; centre of mass, world frame */
 } dmb_momentum;
 DMB_SIZED_STRUCT(dmb_momentum)
 /* O(nodes). */
@@ -124,8 +119,7 @@ typedef struct dmb_joint_state {
     uint32_t constraint_rows, redundant, reserved; /* [-] equations it holds now; of them dropped because others imply them */
     double position[6], speed[6]; /* [m, rad; m/s, rad/s] coordinates, RX and RY over full turns, and their rates */
     double acceleration[6]; /* [m/s2, rad/s2] rate of `speed` */
-    double reaction[6]; /* [N, N m] force and moment of the constraint on b from a, at the origin of b; redundant: of least
-        norm */
+    double reaction[6]; /* [N, N m] force and moment of the constraint on b from a, at b's origin; redundant: of least norm */
     double action[6]; /* [N, N m] generalised force of springs, dampers, stops and friction on the coordinates */
     double violation; /* [m, -] largest violation of its equations of position */
 } dmb_joint_state;
@@ -148,17 +142,14 @@ DMB_SIZED_STRUCT(dmb_bit_state)
 DMB_API int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state);
 typedef struct dmb_statistics {
     uint32_t struct_size, most_iterations; /* [-] of an accepted step */
-    uint64_t steps; /* [-] accepted */
-    uint64_t rejected, iterations; /* [-] steps tried and not accepted; iterations in all */
-    uint64_t limited_steps; /* [-] steps accepted above the tolerance in bounded-work mode */
-    uint64_t bytes; /* [byte] of the sim */
+    uint64_t steps, rejected, iterations; /* [-] accepted; steps tried and not accepted; iterations in all */
+    uint64_t limited_steps, bytes; /* [-; byte] steps accepted above the tolerance in bounded-work mode; of the sim */
     double largest_residual; /* [-] relative, of an accepted step */
     double projection[2]; /* [m/s, rad/s] largest correction of initial velocities */
     double assembly[2]; /* [m, rad] largest correction of the described pose when joints were closed */
     uint64_t switches; /* [-] times the independent coordinates of a cluster were chosen again */
     uint32_t dependent, redundant; /* [-] coordinates that constraints determine now, equations that are dropped now */
-    double violation; /* [m, -] largest violation of an equation of position of a joint now, not of couplings, drives and callers'
-        constraints */
+    double violation; /* [m, -] largest violation of a joint's equation of position now, not of couplings, drives, constraints */
     uint64_t bounces; /* [-] contacts with the wall, stops of joints and springs that opened within fewer than ten steps after
         they closed: steps do not resolve them, and their speeds after it are uncertain. Lasting contacts are not counted. */
 } dmb_statistics;
@@ -175,10 +166,8 @@ typedef struct dmb_hole_point {
     double position[3]; /* [m] of the axis, world frame */
     double tangent[3], normal[3]; /* [-] unit, to greater depth; to the centre of curvature, 0 where straight; world frame */
     double curvature, dogleg_severity; /* [rad/m; deg/30m] >= 0; the same in the drillers' unit */
-    double inclination, azimuth; /* [rad] from the downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi, 0 if
-        vertical */
-    double diameter; /* [m] and the wall's other constants here (scene.h): */
-    double stiffness; /* [N/m^(n+1)] per metre of pipe */
+    double inclination, azimuth; /* [rad] from downward vertical, 0 .. pi; from +x (north) to -y (east), -pi .. pi, vertical: 0 */
+    double diameter, stiffness; /* [m; N/m^(n+1)] of the hole; per metre of pipe (and the wall's other constants: scene.h) */
     double restitution, damping; /* [-; N s/m2] per metre of pipe */
     double mu_static, mu_dynamic; /* [-] */
     double strength; /* [Pa] of a section; 0: not given */
@@ -237,11 +226,10 @@ enum {
     DMB_PROFILE_VON_MISES = 17, /* [Pa] largest at the outer surface, by the diameters (eq:drilling.von-mises); with an
         inner_density or flow_rate of both surfaces, hoop stress too */
     DMB_PROFILE_YIELD_SHARE = 18, /* [-] of `yield_strength`; NaN where the pipe has none */
-    DMB_PROFILE_SINUSOIDAL_SHARE = 19, /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and
-        in compression where nothing presses the pipe to the wall */
+    DMB_PROFILE_SINUSOIDAL_SHARE = 19, /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in
+        compression where nothing presses the pipe to the wall */
     DMB_PROFILE_HELICAL_SHARE = 20, /* [-] compression over the helical buckling load */
-    DMB_PROFILE_VELOCITY_AXIAL = 21, /* [m/s] along the pipe's axis */
-    DMB_PROFILE_VELOCITY_LATERAL = 22, /* [m/s] across, magnitude */
+    DMB_PROFILE_VELOCITY_AXIAL = 21, /* [m/s] along the pipe */ DMB_PROFILE_VELOCITY_LATERAL = 22, /* [m/s] across, magnitude */
     DMB_PROFILE_SPIN = 23, /* [rad/s] about the pipe's axis */
     DMB_PROFILE_ACCELERATION_AXIAL = 24, /* [m/s2] of the section's centre, along the pipe's axis */
     DMB_PROFILE_ACCELERATION_LATERAL = 25, /* [m/s2] across, magnitude */
@@ -279,12 +267,9 @@ enum {
     DMB_OUTPUT_DISPLACEMENT_X = 0, DMB_OUTPUT_DISPLACEMENT_Y = 1, DMB_OUTPUT_DISPLACEMENT_Z = 2, /* [m] world */
     DMB_OUTPUT_VELOCITY_X = 3, DMB_OUTPUT_VELOCITY_Y = 4, DMB_OUTPUT_VELOCITY_Z = 5, /* [m/s] world */
     DMB_OUTPUT_POSITION_X = 6, DMB_OUTPUT_POSITION_Y = 7, DMB_OUTPUT_POSITION_Z = 8, /* [m] world */
-    DMB_OUTPUT_ROTATION = 9, /* [rad] unwrapped */
-    DMB_OUTPUT_SPIN = 10, /* [rad/s] about the pipe's axis */
-    DMB_OUTPUT_AXIAL_FORCE = 11, /* [N] tension > 0 */
-    DMB_OUTPUT_TORQUE = 12, /* [N m] */
-    DMB_OUTPUT_BENDING_MOMENT = 13, /* [N m] magnitude */
-    DMB_OUTPUT_KINETIC_ENERGY = 14, /* [J] of the pipe or body */
+    DMB_OUTPUT_ROTATION = 9, /* [rad] unwrapped */ DMB_OUTPUT_SPIN = 10, /* [rad/s] about the pipe's axis */
+    DMB_OUTPUT_AXIAL_FORCE = 11, /* [N] tension > 0 */ DMB_OUTPUT_TORQUE = 12, /* [N m] */
+    DMB_OUTPUT_BENDING_MOMENT = 13, /* [N m] magnitude */ DMB_OUTPUT_KINETIC_ENERGY = 14, /* [J] of the pipe or body */
     DMB_OUTPUT_NORMAL_FORCE = 15, /* [N] at the pipe's far end, or of the body */
     DMB_OUTPUT_DRIVE_FORCE = 16, /* [N, N m] place.part is a drive */
     DMB_OUTPUT_DRIVE_SPEED = 17, /* [m/s, rad/s] place.part is a drive */
@@ -292,7 +277,6 @@ enum {
     DMB_OUTPUT_ENERGY_ERROR = 19 /* [-] of the ledger; place is ignored */
 };
 /* clang-format on */
-
 typedef struct dmb_window dmb_window; /* a window over outputs, below */
 typedef struct dmb_recorder {
     uint32_t struct_size, output_count; /* [-] 1 .. 4096 */
@@ -350,8 +334,7 @@ DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_stat
 /* clang-format off */
 enum {
     /* Readings of a driller; place.part is a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
-    DMB_OUTPUT_HOOK_LOAD = 100, /* [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it
-        thrusts */
+    DMB_OUTPUT_HOOK_LOAD = 100, /* [N] effective axial force at the rig end, as dmb_query_section: > 0 pull, < 0 thrust */
     DMB_OUTPUT_ROTATION_TORQUE = 101, /* [N m] that the rig puts into that section, > 0 along the string's x axis */
     DMB_OUTPUT_WEIGHT_ON_BIT = 102, /* [N] of all bits on the string: rock law and bottom-hole load */
     DMB_OUTPUT_TORQUE_ON_BIT = 103, /* [N m] of all bits on the string: rock law, against the rotation */
@@ -363,29 +346,23 @@ enum {
     DMB_OUTPUT_FEED_SPEED = 108, /* [m/s] along its axis, of the string's rig end, > 0 into the hole */
     DMB_OUTPUT_STRETCH = 109, /* [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths */
     DMB_OUTPUT_WIND_UP = 110, /* [rad] elastic, of the rig end against the far end: less the sum of the twist */
-    DMB_OUTPUT_OFF_BOTTOM = 111, /* [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window
-        is the off-bottom share */
+    DMB_OUTPUT_OFF_BOTTOM = 111, /* [-] 1: no bit with a rock law is on bottom, else 0; its mean in windows: off-bottom share */
     DMB_OUTPUT_RIG_FORCE = 112, /* [N] by support and drives on the rig end, > 0 the rig pulls: hook load, and inertia, weight and
         friction of the end itself; 0 where a joint holds it */
     DMB_OUTPUT_RIG_TORQUE = 113, /* [N m] by support and drives, > 0 along the string's x axis */
     /* place.part a bit: dmb_query_bit */
     DMB_OUTPUT_BIT_ADVANCE = 120, DMB_OUTPUT_BIT_BOTTOM = 121, DMB_OUTPUT_BIT_DEPTH_OF_CUT = 122, /* [m] */
     DMB_OUTPUT_BIT_ROCK_WEIGHT = 123, DMB_OUTPUT_BIT_LOAD = 125, /* [N] of the rock law alone; bottom-hole load */
-    DMB_OUTPUT_BIT_TORQUE = 124, /* [N m] */
-    DMB_OUTPUT_BIT_ON_BOTTOM = 126, /* [-] 1 or 0 */
+    DMB_OUTPUT_BIT_TORQUE = 124, /* [N m] */ DMB_OUTPUT_BIT_ON_BOTTOM = 126, /* [-] 1 or 0 */
     /* place.part a stuck place: dmb_query_stuck */
-    DMB_OUTPUT_STUCK = 127, /* [-] 1 or 0 */
-    DMB_OUTPUT_STUCK_FORCE = 128, /* [N] axial */
+    DMB_OUTPUT_STUCK = 127, /* [-] 1 or 0 */ DMB_OUTPUT_STUCK_FORCE = 128, /* [N] axial */
     DMB_OUTPUT_STUCK_TORQUE = 129, /* [N m] */
     /* place.part a drive: dmb_query_drive */
-    DMB_OUTPUT_DRIVE_TARGET = 130, /* [unit of the time function] */
-    DMB_OUTPUT_DRIVE_POSITION = 131, /* [m, rad] */
-    DMB_OUTPUT_DRIVE_POWER = 132, /* [W] */
-    DMB_OUTPUT_DRIVE_WORK = 133, /* [J] */
+    DMB_OUTPUT_DRIVE_TARGET = 130, /* [unit of the time function] */ DMB_OUTPUT_DRIVE_POSITION = 131, /* [m, rad] */
+    DMB_OUTPUT_DRIVE_POWER = 132, /* [W] */ DMB_OUTPUT_DRIVE_WORK = 133, /* [J] */
     DMB_OUTPUT_DRIVE_COMMAND = 134, DMB_OUTPUT_DRIVE_MADE = 135, /* [N, N m] */
     /* place.pipe the number of a contact point: dmb_query_contact */
-    DMB_OUTPUT_CONTACT_GAP = 140, /* [m] */
-    DMB_OUTPUT_CONTACT_NORMAL_FORCE = 141, /* [N] */
+    DMB_OUTPUT_CONTACT_GAP = 140, /* [m] */ DMB_OUTPUT_CONTACT_NORMAL_FORCE = 141, /* [N] */
     DMB_OUTPUT_CONTACT_APPROACH = 142, /* [m/s] */
     DMB_OUTPUT_CONTACT_FRICTION_AXIAL = 143, DMB_OUTPUT_CONTACT_FRICTION_AROUND = 144, /* [N] */
     DMB_OUTPUT_CONTACT_SLIP_AXIAL = 145, DMB_OUTPUT_CONTACT_SLIP_AROUND = 146, /* [m/s] */
@@ -393,8 +370,7 @@ enum {
     /* place is ignored from here to the statistics; dmb_query_contact_total, O(contact points) */
     DMB_OUTPUT_CONTACTS_CLOSED = 150, /* [-] */
     DMB_OUTPUT_CONTACTS_NORMAL_FORCE = 151, DMB_OUTPUT_CONTACTS_FRICTION_AXIAL = 152, /* [N] */
-    DMB_OUTPUT_CONTACTS_FRICTION_AROUND = 153, /* [N] */
-    DMB_OUTPUT_CONTACTS_DEEPEST = 154, /* [m] */
+    DMB_OUTPUT_CONTACTS_FRICTION_AROUND = 153, /* [N] */ DMB_OUTPUT_CONTACTS_DEEPEST = 154, /* [m] */
     /* place is ignored; dmb_query_energy, dmb_query_momentum: O(nodes) */
     DMB_OUTPUT_ENERGY_KINETIC = 160, DMB_OUTPUT_ENERGY_STRAIN = 161, DMB_OUTPUT_ENERGY_GRAVITY = 162, /* [J] */
     DMB_OUTPUT_ENERGY_CONTACT = 163, DMB_OUTPUT_ENERGY_DRIVES = 164, DMB_OUTPUT_ENERGY_LOADS = 165, /* [J] */
@@ -403,19 +379,16 @@ enum {
     DMB_OUTPUT_ENERGY_BALANCE = 172, DMB_OUTPUT_ENERGY_UNEXPLAINED = 173, /* [J] */
     DMB_OUTPUT_MOMENTUM_X = 180, DMB_OUTPUT_MOMENTUM_Y = 181, DMB_OUTPUT_MOMENTUM_Z = 182, /* [kg m/s] linear, world */
     DMB_OUTPUT_ANGULAR_MOMENTUM_X = 183, DMB_OUTPUT_ANGULAR_MOMENTUM_Y = 184, /* [kg m2/s] about the world's origin, world */
-    DMB_OUTPUT_ANGULAR_MOMENTUM_Z = 185, /* [kg m2/s] the same */
-    DMB_OUTPUT_MASS = 186, /* [kg] */
+    DMB_OUTPUT_ANGULAR_MOMENTUM_Z = 185, /* [kg m2/s] the same */ DMB_OUTPUT_MASS = 186, /* [kg] */
     DMB_OUTPUT_CENTRE_X = 187, DMB_OUTPUT_CENTRE_Y = 188, DMB_OUTPUT_CENTRE_Z = 189, /* [m] of mass, world */
     DMB_OUTPUT_STEPS = 200, DMB_OUTPUT_REJECTED = 201, DMB_OUTPUT_ITERATIONS = 202, /* [-] dmb_query_statistics, O(joints) */
     DMB_OUTPUT_LIMITED_STEPS = 203, DMB_OUTPUT_MOST_ITERATIONS = 204, DMB_OUTPUT_LARGEST_RESIDUAL = 205, /* [-] */
     DMB_OUTPUT_SWITCHES = 206, DMB_OUTPUT_DEPENDENT = 207, DMB_OUTPUT_REDUNDANT = 208, /* [-] */
     DMB_OUTPUT_VIOLATION = 209, /* [m, -] of all joints */
     /* place.part a spring: dmb_query_spring */
-    DMB_OUTPUT_SPRING_LENGTH = 220, DMB_OUTPUT_SPRING_ELONGATION = 221, /* [m] */
-    DMB_OUTPUT_SPRING_SPEED = 222, /* [m/s] */
+    DMB_OUTPUT_SPRING_LENGTH = 220, DMB_OUTPUT_SPRING_ELONGATION = 221, /* [m] */ DMB_OUTPUT_SPRING_SPEED = 222, /* [m/s] */
     DMB_OUTPUT_SPRING_FORCE = 223, /* [N] tension > 0, sum of the next two */
-    DMB_OUTPUT_SPRING_ELASTIC = 224, DMB_OUTPUT_SPRING_DAMPER = 225, /* [N] */
-    DMB_OUTPUT_SPRING_ENERGY = 226, /* [J] */
+    DMB_OUTPUT_SPRING_ELASTIC = 224, DMB_OUTPUT_SPRING_DAMPER = 225, /* [N] */ DMB_OUTPUT_SPRING_ENERGY = 226, /* [J] */
     /* place.part an input: dmb_sim_get_input */
     DMB_OUTPUT_INPUT_PRESENT = 230, /* [unit of the input] in force now */
     DMB_OUTPUT_INPUT_RATE = 231, /* [unit of the input/s] of that */
@@ -423,14 +396,12 @@ enum {
     /* place.part a joint: dmb_query_joint; six each but for the last three */
     DMB_OUTPUT_JOINT_POSITION = 300, DMB_OUTPUT_JOINT_SPEED = 310, DMB_OUTPUT_JOINT_ACCELERATION = 320, /* [m, rad]; 1/s; 1/s2 */
     DMB_OUTPUT_JOINT_REACTION = 330, DMB_OUTPUT_JOINT_REACTION_BODY = 340, /* [N, N m] world; (_BODY) frame b */
-    DMB_OUTPUT_JOINT_ACTION = 350, /* [N, N m] */
-    DMB_OUTPUT_JOINT_VIOLATION = 360, /* [m, -] */
+    DMB_OUTPUT_JOINT_ACTION = 350, /* [N, N m] */ DMB_OUTPUT_JOINT_VIOLATION = 360, /* [m, -] */
     DMB_OUTPUT_JOINT_STATE = 361, DMB_OUTPUT_JOINT_ROWS = 362, /* [-] DMB_JOINT_...; equations it holds now */
     DMB_OUTPUT_MULTIPLIER = 370, /* [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six */
     DMB_OUTPUT_REACTION = 380, /* [N, N m] of a string or body: dmb_query_reaction; six */
     /* any place; six each */
-    DMB_OUTPUT_SECTION_FORCE = 400, /* [N, N m] dmb_query_section */
-    DMB_OUTPUT_SECTION_STRAIN = 410, /* [-, rad/m] */
+    DMB_OUTPUT_SECTION_FORCE = 400, /* [N, N m] dmb_query_section */ DMB_OUTPUT_SECTION_STRAIN = 410, /* [-, rad/m] */
     DMB_OUTPUT_WORLD_VELOCITY = 420, DMB_OUTPUT_BODY_VELOCITY = 440, /* [m/s, rad/s] dmb_query_motion */
     DMB_OUTPUT_WORLD_ACCELERATION = 430, DMB_OUTPUT_BODY_ACCELERATION = 450, /* [m/s2, rad/s2] */
     /* Small motion of any place about the state of a linear analysis, six each; along world axes or (_BODY) those of the section,
@@ -446,7 +417,6 @@ enum {
     DMB_OUTPUT_STICK_SLIP_INDEX = 2004, DMB_OUTPUT_WINDOW_LOW_SHARE = 2005 /* [-] index, low_share of dmb_window_result */
 };
 /* clang-format on */
-
 /* [unit of the output] The present value. Errors: those of the query behind it, DMB_ERR_VALUE for an unknown quantity or a
  * multiplier that is not there, DMB_ERR_UNSUPPORTED for a string without the part it needs (a bit, a rock law, a flexible first
  * pipe) and for outputs of a window. */
@@ -463,8 +433,7 @@ DMB_API int32_t dmb_output_next(int32_t quantity);
 /* "drive_force of drive table [N m]", "axial_force of string main pipe 3 at 0.5 [N]": into the caller's text of `size` [byte],
  * ends with 0; 128 suffice. sim may be NULL: parts by their numbers. Errors: DMB_ERR_TOO_LARGE (room). */
 DMB_API int32_t dmb_output_text(const dmb_sim *sim, const dmb_output *output, char *text, uint32_t size);
-/* Checks that this sim has each output; dmb_sim_message names the first missing one, and a valid place. Errors as
- * dmb_query_output. */
+/* Checks this sim for each output; dmb_sim_message: the first missing one and a valid place. Errors as dmb_query_output. */
 DMB_API int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count);
 
 /* ---- A window over outputs ----------------------------------------------------------------------------------------
@@ -512,8 +481,7 @@ typedef struct dmb_profile_recorder {
     double interval; /* [s] between rows, 0: every call */
 } dmb_profile_recorder;
 DMB_SIZED_STRUCT(dmb_profile_recorder)
-/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; errors of dmb_query_profile; DMB_ERR_ORDER before
- * the time of the last row, as after a restore: set row_count to the number of rows to keep. */
+/* As dmb_recorder_take, with the errors of dmb_query_profile. */
 DMB_API int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim *sim);
 /* CSV, a line for each row and station: time [s], station, then the quantities with their units. DMB_ERR_IO. */
 DMB_API int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path);

@@ -21,17 +21,14 @@ DMB_C_BEGIN
 #else
 #define DMB_API
 #endif
-
 /* The one place where the version is written; the build reads it from here. */
 #define DMB_VERSION_MAJOR 0
 #define DMB_VERSION_MINOR 1
 #define DMB_VERSION_PATCH 0
-
 /* Version of the linked library, 10000 major + 100 minor + patch. Cannot fail. */
 DMB_API uint32_t dmb_version(void);
-/* The abilities of this build. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal to
- * rounding. FILES: recorders and VTK write files. HEAP: malloc and free are the default allocator; without it each model needs
- * its own. */
+/* The abilities of this build. LAPACK: without it the library solves dense eigenproblems, slower, equal to rounding. FILES:
+ * recorders and VTK write files. HEAP: malloc and free are the default allocator; else each model needs its own. */
 enum { DMB_HAS_LAPACK = 0, DMB_HAS_FILES = 1, DMB_HAS_HEAP = 2 };
 /* 1: yes, 0: no; a library that is loaded when needed is loaded by this call. DMB_ERR_VALUE: none of the above. Thread-safe. */
 DMB_API int32_t dmb_has(int32_t what);
@@ -61,7 +58,7 @@ DMB_API const char *dmb_build_info(void);
     X(DMB_NOTE_EVENT, 15, "done up to an event, the message names it")                                                  \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
-    X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size of this library")                                        \
+    X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size of this library; fill structs by their _default first")     \
     X(DMB_ERR_ID, -4, "the id does not name a part of this model")                                                    \
     X(DMB_ERR_VALUE, -5, "a value lies outside its bounds")                                                           \
     X(DMB_ERR_NOT_FINITE, -6, "a value is NaN or infinite")                                                           \
@@ -77,11 +74,9 @@ DMB_API const char *dmb_build_info(void);
     X(DMB_ERR_UNSUPPORTED, -16, "a combination that this version does not offer")                                     \
     X(DMB_ERR_CANCELLED, -17, "the caller's progress function ended the call")
 /* clang-format on */
-
 #define DMB_STATUS_ENUM_ENTRY(name, value, text) name = (value),
 enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
 #undef DMB_STATUS_ENUM_ENTRY
-
 /* Name ("DMB_ERR_VALUE") and text of a status, of an unknown one "DMB_UNKNOWN". Never NULL. Thread-safe. */
 DMB_API const char *dmb_status_name(int32_t status);
 DMB_API const char *dmb_status_text(int32_t status);
@@ -149,7 +144,6 @@ typedef struct dmb_allocator {
     void (*release)(void *context, void *block, size_t size, size_t alignment); /* a block of allocate, same sizes */
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
-
 /* An allocator that uses only the caller's memory: for firmware without a heap. memory: the pool itself takes 64 bytes of it; it
  * must remain valid while a model or sim uses it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64
  * bytes. *allocator may be uninitialised. Calling it again on the same memory forgets all that was given out. In a full pool,
@@ -181,7 +175,6 @@ DMB_SIZED_STRUCT(dmb_error)
 DMB_API int32_t dmb_last_error(dmb_error *error);
 /* Sees each failing call on a model and its sims, at its end and in its thread; may not change them. */
 typedef void (*dmb_error_fn)(void *context, const dmb_error *error);
-
 enum { DMB_LOG_ERROR = 0, DMB_LOG_WARNING = 1, DMB_LOG_INFO = 2 };
 /* Called with a line of text, never during a step. The text lives only for the call. */
 typedef void (*dmb_log_fn)(void *context, int32_t level, const char *text);

@@ -3,7 +3,6 @@
 #define DRILLMBD_RUN_H
 #include "scene.h"
 DMB_C_BEGIN
-
 typedef struct dmb_sim dmb_sim; /* one simulation of a compiled scene */
 /* One thread at a time. Errors of every function of this header, which change nothing: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE,
  * _VALUE, _ORDER (within a call on the sim); of ids and numbers _ID, _NOT_FINITE. Reports may be NULL. Steps, inputs and
@@ -13,7 +12,6 @@ enum {
     DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */
     DMB_METHOD_MULTIPLIERS = 1 /* it solves for all coordinates and the multipliers, for comparison; not in statics */
 };
-
 typedef void (*dmb_part_fn)(void *work, uint32_t index); /* one part of the work of a step */
 /* Long strings on several cores, with threads of the caller's (examples/programming, Threads; examples/two_cores). It calls
  * part(work, i) once for each i < count, in any threads and order, and returns 0 when all have returned; another value, or parts
@@ -28,8 +26,7 @@ typedef struct dmb_sim_options {
     double newton_tolerance; /* [-] 0 (default): iterations leave a few hundredths of the step's own error at most, and a residual
         below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the
         balancing forces */
-    double tolerance_translation, tolerance_rotation; /* [m; rad] local error of a step of dmb_sim_advance, > 0; default 1e-6,
-        1e-5 */
+    double tolerance_translation, tolerance_rotation; /* [m; rad] local error in dmb_sim_advance, > 0; default 1e-6, 1e-5 */
     double step_min, step_max; /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; longest, > step_min;
         default 1e-9, 0.1 */
     uint32_t max_cuts; /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
@@ -64,23 +61,20 @@ DMB_API void dmb_sim_destroy(dmb_sim **sim);
 /* Message of the last call on this sim that failed or has a note; of queries, of this thread. Never NULL; until the next call. */
 DMB_API const char *dmb_sim_message(const dmb_sim *sim);
 DMB_API double dmb_sim_time(const dmb_sim *sim); /* [s] of the last accepted state; NaN for NULL */
-
 /* [-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen.
  * Returns 0, or nonzero to end the call. */
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
 /* From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals
  * (examples/programming, Runs) in the thread of the call (an eigenproblem of LAPACK is one interval). Nonzero ends the call with
- * DMB_ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state;
- * dmb_sim_advance there with DMB_NOTE_CANCELLED). A signal handler or another thread sets a flag that the function reads. NULL
- * (default): none. Not in snapshots and hashes. */
+ * DMB_ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state; dmb_sim_advance
+ * there with DMB_NOTE_CANCELLED). NULL (default): none. Not in snapshots and hashes. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
-/* Sees the sim after an accepted step; may query, record and save it, but not change it. Returns 0, or nonzero to end the
- * call. */
+/* Sees the sim after an accepted step; may query, record and save it, not change it. Nonzero ends the call. */
 typedef int32_t (*dmb_step_fn)(void *context, const dmb_sim *sim);
 /* From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and each of
  * dmb_sim_advance and _advance_to_event that is accepted for good: not parts of a divided step, nor steps that are repeated to
- * locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not
- * ended by it. NULL (default): none. Not in snapshots and hashes. */
+ * locate an event. Nonzero before the end of the call: DMB_NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not ended
+ * by it. NULL (default): none. Not in snapshots and hashes. */
 DMB_API int32_t dmb_sim_set_on_step(dmb_sim *sim, dmb_step_fn function, void *context);
 typedef struct dmb_step_report {
     uint32_t struct_size, steps; /* [-] accepted integration steps in this call */
@@ -99,10 +93,10 @@ DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *rep
  * report has the sums and maxima of them all. The status is the largest note of a step, with its message, DMB_NOTE_STOPPED, or
  * the error that ended the calls, as dmb_sim_step; the state is then that after *done of them. */
 DMB_API int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report);
-/* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors
- * of steps add up over a run, to some thousand times the tolerances in 10 s: repeat it with a tenth of the tolerances to
- * estimate the error at its end. DMB_NOTE_TOLERANCE where a step of step_min was too long for them; before that DMB_NOTE_STOPPED
- * after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one. */
+/* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors of
+ * steps add up over a run, to some thousand times the tolerances in 10 s: repeat it with a tenth of the tolerances to estimate
+ * the error at its end. DMB_NOTE_TOLERANCE where a step of step_min was too long for them; before that DMB_NOTE_STOPPED after
+ * max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose
@@ -176,9 +170,8 @@ DMB_SIZED_STRUCT(dmb_event_report)
 DMB_API int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report);
 /* As dmb_sim_steps, with the same bits, but ends after the step in which the first event is: DMB_NOTE_EVENT. No step is changed:
  * `events` has all of that step, and `crossing` is where the parabola through the output at three ends of steps meets the level
- * (lib/theory/integration.md), with an error of third order where the output is smooth, else up to the step. A crossing and
- * return within one step is missed; dmb_sim_advance_to_event takes shorter steps where the tolerances ask for them. Notes and
- * errors as dmb_sim_steps; DMB_ERR_VALUE: no events. */
+ * (lib/theory/integration.md), with an error of order 3 where the output is smooth, else up to the step. dmb_sim_advance_to_event
+ * takes shorter steps where tolerances ask. Notes, errors as dmb_sim_steps; DMB_ERR_VALUE: no events. */
 DMB_API int32_t dmb_sim_steps_to_event(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_event_report *event,
                                        dmb_step_report *report);
 DMB_C_END

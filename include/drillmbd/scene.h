@@ -3,7 +3,6 @@
 #define DRILLMBD_SCENE_H
 #include "base.h"
 DMB_C_BEGIN
-
 typedef struct dmb_model dmb_model; /* a scene: described, then compiled */
 
 /* Models belong to one thread until they are compiled. Errors of every function of this header that has a model: DMB_ERR_NULL,
@@ -66,8 +65,8 @@ DMB_API int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, d
 /* Component indices of body-frame velocity. */
 enum { DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5 };
 /* Sets of components are built from DMB_FREE_* by |; a set of component indices is refused, as is 0; DMB_FREE_NONE is the empty
- * set and may be in any. A set of free components must be closed under motion (the subgroups of displacements, Herve 1978):
- * these with names; others are refused and need a joint. */
+ * set and may be in any. A set of free components must be closed under motion (the subgroups of displacements, Herve 1978): these
+ * with names; others are refused and need a joint. */
 enum {
     DMB_FREE_X = 256, DMB_FREE_Y = 512, DMB_FREE_Z = 1024,
     DMB_FREE_RX = 2048, DMB_FREE_RY = 4096, DMB_FREE_RZ = 8192, DMB_FREE_NONE = 16384,
@@ -100,9 +99,8 @@ typedef struct dmb_environment_def {
     double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress */
     double yield_stress; /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
     double nozzle_area; /* [m2] of the bit in all; 0 (default): the last pipe is open */
-    double flow_eccentricity; /* [-] of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0
-        (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag, at any
-        pose of the string */
+    double flow_eccentricity; /* [-] of the annulus, everywhere: distance of the axes over half the difference of diameters, 0
+        (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -121,8 +119,7 @@ enum {
         integral from 0 s. Its own integral is exact to round-off. A worn gear: share alone, `of` the speed that turns it */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that
- * `provides` does not announce are computed by differences and quadrature. All within +-DMB_UNLIMITED. Returns 0, or nonzero to
- * stop. */
+ * `provides` does not announce are computed by differences and quadrature. All within +-DMB_UNLIMITED. Nonzero stops. */
 typedef int32_t (*dmb_time_fn)(void *context, double time, double out[3]);
 enum { DMB_PROVIDES_RATE = 1, DMB_PROVIDES_INTEGRAL = 2 };
 typedef struct dmb_segment {
@@ -159,8 +156,7 @@ typedef struct dmb_law_memory {
         jumps: the accepted motion must give `accepted`. Linear analyses read damping and stiffness from short steps: use the
         trapezoidal rule for rates */
 } dmb_law_memory;
-/* Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact point of the
- * wall; 0 of a force. */
+/* Called at each accepted step, just before the function of accepted steps (run.h). number: the contact point, 0 of a force. */
 typedef void (*dmb_accept_fn)(void *context, double time, uint32_t number, const double *state);
 
 /* ---- Hole wall --------------------------------------------------------------------------------------------------- */
@@ -196,8 +192,8 @@ typedef int32_t (*dmb_friction_fn)(void *context, const dmb_friction_at *at, dou
 typedef struct dmb_wall_def {
     uint32_t struct_size, survey_count; /* [-] 0 (straight hole along `direction`), or 2 .. 2^16 */
     const double *survey; /* [m, rad, rad] measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise
-        seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between;
-        shape (survey_count, 3); copied */
+        seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between
+        stations, straight on beyond the last one; shape (survey_count, 3); copied */
     double origin[3]; /* [m] start of the axis, world frame; default 0 */
     double direction[3]; /* [-] of a straight hole, any length, world frame; default (1, 0, 0) */
     double diameter; /* [m] of the hole, > 0; default 0.094 */
@@ -222,8 +218,7 @@ typedef struct dmb_wall_def {
         described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next
         within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer.
         At most 2^18 stations. 0 (default): the hole stays as described */
-    double cut_start, cut_end; /* [m] measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond;
-        default 0 */
+    double cut_start, cut_end; /* [m] measured depths of first and last station, >= 3 spacings apart: no cut beyond; default 0 */
     uint32_t friction_table_count; /* [-] points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first
         coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone,
         and the table acts in proportion */
@@ -272,17 +267,15 @@ typedef struct dmb_string_def {
     int32_t follows_hole; /* 1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1 */
     double start_depth; /* [m] measured depth of the rig end; default 0 */
     double offset[2]; /* [m] sideways shift from the hole's axis along its y and z axes; default 0 */
-    double position[3], rotation[3]; /* [m; rad] rig end and rotation vector of its frame, world frame, if follows_hole is 0 or
-        there is no hole */
+    double position[3], rotation[3]; /* [m; rad] rig end (world, if follows_hole is 0 or there is no hole); its rotation vector */
     double velocity[6]; /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0 */
-    int32_t start_free, end_free; /* [-] sets of free components at the rig end, the far end; default DMB_FREE_CYLINDRICAL,
-        DMB_FREE_ALL */
+    int32_t start_free, end_free; /* [-] sets of free components at the rig end, the far end: with X in both and no drive along it
+        the string slides, and a load on its bit pushes it out of the hole; default DMB_FREE_CYLINDRICAL, DMB_FREE_ALL */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
 } dmb_string_def;
 DMB_SIZED_STRUCT(dmb_string_def)
 /* Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default. */
 DMB_API int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id *string);
-
 enum {
     DMB_PIPE_FLEXIBLE = 0, /* SE(3) beam elements: bending, shear, stretch, torsion */
     DMB_PIPE_AXIAL_TORSIONAL = 1, /* stretch and torsion on the hole's axis, 2 coordinates a node */
@@ -329,16 +322,14 @@ DMB_API int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, u
 /* A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its
  * middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle,
  * by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own
- * (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the
- * middle. */
+ * (examples/programming, Parts on strings). {its id, 0, 0}: its middle, in queries, loads, springs, joints, forces. */
 typedef struct dmb_stabiliser_def {
     uint32_t struct_size, pipe; /* [-] number along the string; default 0 */
     dmb_id string; /* {0, 0}: the model's first string */
     double fraction; /* [-] 0 .. 1 of the pipe's length: its middle; default 0.5 */
     double outer_diameter; /* [m] that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09 */
     double length, mass; /* [m; kg] > 0; 0: of a hollow cylinder around the pipe, of `density`; default 0.3, 0 */
-    double inertia[2]; /* [kg m2] about its axis and across, at the middle, first <= twice second; 0 (default): of that
-        cylinder */
+    double inertia[2]; /* [kg m2] about its axis and across, at the middle, first <= twice second; 0 (default): the cylinder's */
     double density; /* [kg/m3] > 0, also for its buoyancy: its volume is mass/density; default 7850 */
     char name[24]; /* for messages, ends with 0; default "" */
     double added_mass[2]; /* [kg] of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0,
@@ -367,13 +358,11 @@ typedef struct dmb_body_def {
         represents, > 0; default 0, 1 */
     char name[24]; /* for messages and look-up, ends with 0; default "" */
     double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
-    double added_mass[2]; /* [kg] added mass of the mud along body x and across, at the x of the centre of mass, as of a body of
-        revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). It has no weight; >= 0;
-        default 0 */
+    double added_mass[2]; /* [kg] added mass of mud along body x and across, at the x of the centre of mass, as of a body of
+        revolution in mud at rest (sphere: half that displaced; disc along its axis: 8/3 rho r^3), weightless; >= 0; default 0 */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
-
 enum {
     DMB_ROCK_NONE = 0,
     DMB_ROCK_RATE = 1, /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as
@@ -387,8 +376,7 @@ typedef struct dmb_bit_def {
     dmb_id string; /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
     dmb_id load; /* [N] time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none */
     double mass; /* [kg] > 0; default 5 */
-    double inertia[2]; /* [kg m2] about the axis and across, at the centre, first <= twice second; 0 (default): of a solid
-        cylinder */
+    double inertia[2]; /* [kg m2] about the axis and across, at the centre, first <= twice second; 0 (default): solid cylinder */
     double diameter, length; /* [m] gauge that meets the wall, <= hole, 0: no contact; > 0, centre at half of it beyond the
         string's end; default 0.092, 0.1 */
     double radius; /* [m] a of the rock law, > 0; default 0.047 */
@@ -479,8 +467,7 @@ DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, 
  * revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one are subtracted too, each
  * times its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, annulus gear; tackle: ropes. */
 typedef struct dmb_coupling_def {
-    uint32_t struct_size;
-    int32_t reserved;
+    uint32_t struct_size, reserved;
     char name[24]; /* for messages and look-up, ends with 0; default "" */
     dmb_id joint[2]; /* may be the same */
     int32_t component[2]; /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
@@ -540,13 +527,11 @@ typedef struct dmb_drive_def {
     double lag; /* [s] time constant of the force, 0 or >= 1e-6 */
     double drag, back_drag; /* [N s/m, N m s] >= 0, of the actuator at speeds > 0; >= 0, at speeds < 0 (back-spin) */
     double inertia; /* [kg m2] >= 0 of rotor and gear, turning with the component, RX of a string or a body; of MOTION too */
-    uint32_t curve_count; /* [-] points of the torque-speed curve: 0 (none) or 2 .. 8 */
-    int32_t reserved2;
+    uint32_t curve_count, reserved2; /* [-] points of the torque-speed curve: 0 (none) or 2 .. 8 */
     double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
     double curve_force[8]; /* [N, N m] >= 0: largest force towards > 0 at a speed, linear between points, constant beyond;
         mirrored for forces < 0; shape (curve_count) */
-    uint32_t gain_count; /* [-] points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16 */
-    int32_t reserved3;
+    uint32_t gain_count, reserved3; /* [-] points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16 */
     double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
     double gain_force[16]; /* [N, N m] instead of kp (v* - v), straight between points, constant beyond, shape (gain_count) */
     double mud_pressure; /* [Pa/(N m)] fall of the mud's pressure for each N m of a motor, >= 0, of RX of a joint, with a
@@ -554,7 +539,6 @@ typedef struct dmb_drive_def {
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);
-
 enum { DMB_FRAME_WORLD = 0, DMB_FRAME_BODY = 1, DMB_FRAME_HOLE = 2 };
 typedef struct dmb_load_def {
     uint32_t struct_size;
@@ -633,8 +617,7 @@ DMB_API int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, 
 /* A place that can be stuck in the hole: a jammed bit, tool joint, key seat. While it is stuck, springs and dampers hold it at
  * the pose where it got stuck, in the axes that its section had there: along the axis, about it, and sideways. It is released
  * when the axial force reaches `overpull` or the torque `overtorque`; the energy of the springs goes to `impact`. An input of
- * target DMB_TARGET_STUCK sets it, 0 or 1; it is 0 again once the place was released (examples/programming, Parts on
- * strings). */
+ * target DMB_TARGET_STUCK sets it, 0 or 1; it is 0 again once the place was released (examples/programming, Parts on strings). */
 enum { DMB_STUCK_AXIAL = 1, DMB_STUCK_ROTATION = 2, DMB_STUCK_LATERAL = 4 };
 typedef struct dmb_stuck_def {
     uint32_t struct_size;
@@ -703,31 +686,29 @@ DMB_API int32_t dmb_model_place_at_end(dmb_model *model, dmb_id string, double l
 
 /* ---- Inputs ----------------------------------------------------------------------------------------------------- */
 /* clang-format off */
-enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 13 of wall and environment, >= 0 */
+enum { /* targets of inputs: GAIN .. LIMIT_HIGH of CONTROL drives; FRICTION .. TORSIONAL_DAMPING, FLOW_RATE of hole, mud, >= 0 */
     DMB_TARGET_SET_POINT = 0, /* of a drive, instead of its time function; its excitation continues */
     DMB_TARGET_GAIN = 1, DMB_TARGET_INTEGRAL_GAIN = 2, /* [N s/m, N m s], [N/m, N m] >= 0 */
     DMB_TARGET_LIMIT_LOW = 3, DMB_TARGET_LIMIT_HIGH = 4, /* [N, N m] the first below the second */
     DMB_TARGET_LOAD_FACTOR = 5, DMB_TARGET_BIT_LOAD = 6, /* [-] of a load, [N] of a bit, replaces its time function */
     DMB_TARGET_FRICTION = 7, DMB_TARGET_FLUID_DENSITY = 8, /* [-] factor of both coefficients of the wall, [kg/m3] */
-    DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */
-    DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
+    DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */ DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
     DMB_TARGET_STUCK = 12, /* [-] 1: a place is stuck from now on, 0: it is free */
     DMB_TARGET_FLOW_RATE = 13 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
 };
 /* clang-format on */
-/* Joint states are no inputs (dmb_sim_set_joint; examples/programming, Runs); a place that is fixed and released by an input is
- * DMB_TARGET_STUCK. */
+/* Joint states are no inputs (dmb_sim_set_joint; examples/programming, Runs); DMB_TARGET_STUCK fixes and releases places. */
 enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };
 typedef struct dmb_input_def {
     uint32_t struct_size;
     int32_t target; /* DMB_TARGET_..., default DMB_TARGET_SET_POINT */
     char name[24]; /* required, unique among the inputs, ends with 0 */
     dmb_id part; /* drive, load, bit or stuck place; {0, 0} of wall and environment */
-    double initial; /* [unit of the target] at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the
-        time function, until the input is set */
+    double initial; /* [unit of the target] at time 0, within the bounds; NaN (default): as described, until it is set: of
+        SET_POINT, LOAD_FACTOR and BIT_LOAD by the time function */
     double low, high; /* [unit of the target] bounds, low <= high; default -DMB_UNLIMITED, DMB_UNLIMITED: those of the target */
-    double rate_limit; /* [unit/s] of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set
-        point of a MOTION drive: largest acceleration */
+    double rate_limit; /* [unit/s] of SET_POINT, LOAD_FACTOR, BIT_LOAD: the most it changes in a second, > 0; 0 (default): it
+        jumps. Required for the set point of a MOTION drive: largest acceleration */
     double slope_limit; /* [unit/s2] the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value
         then reaches the set point in the least time that both limits allow */
     int32_t outside, reserved; /* DMB_OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound */
@@ -757,9 +738,9 @@ typedef struct dmb_output {
     dmb_place place; /* place or part that the quantity belongs to */
     int32_t quantity, reserved; /* DMB_OUTPUT_... */
 } dmb_output;
-/* An event is an output that crosses a level, evaluated at the ends of steps: a crossing and return within one step is missed.
- * It is located by steps really taken to it, so the state lies on it: at most `tolerance` in time beyond the first crossing, on
- * the far side of the level. EITHER: it changes side (a start on the level is on neither). RISING: from at or below the level to
+/* An event is an output that crosses a level, evaluated at the ends of steps: a crossing and return within one step is missed. It
+ * is located by steps really taken to it, so the state lies on it: at most `tolerance` in time beyond the first crossing, on the
+ * far side of the level. EITHER: it changes side (a start on the level is on neither). RISING: from at or below the level to
  * above it. FALLING: from at or above it to below. */
 enum { DMB_EVENT_EITHER = 0, DMB_EVENT_RISING = 1, DMB_EVENT_FALLING = 2, DMB_EVENTS_MAX = 64 };
 typedef struct dmb_event_def {
@@ -782,10 +763,9 @@ DMB_API int32_t dmb_model_find_event(const dmb_model *model, const char *name, d
  * too; compile options are not part of it. Errors, which write nothing: DMB_ERR_TOO_LARGE (room), _UNSUPPORTED (functions of the
  * caller, which no record holds), that of a refused part. */
 DMB_API int32_t dmb_model_write(const dmb_model *model, void *bytes, size_t room, size_t *size);
-/* Makes the model of a record, open for changes before dmb_model_compile. Its scene is the same to the bit, and its ids have the
- * same index as those of the model that was written. Errors: DMB_ERR_NULL, _VALUE (damaged: length, checksum or content),
- * _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then,
- * dmb_last_error has the reason. */
+/* Makes the model of a record, open for changes before dmb_model_compile. Its scene is the same to the bit, its ids have the same
+ * indices. Errors: DMB_ERR_NULL, _VALUE (damaged: length, checksum or content), _UNSUPPORTED (of a newer version), _TOO_LARGE,
+ * _NO_MEMORY, those of the calls that add parts; *model is NULL then, dmb_last_error has the reason. */
 DMB_API int32_t dmb_model_read(const void *bytes, size_t size, const dmb_model_options *options, dmb_model **model);
 
 /* ---- Compile ----------------------------------------------------------------------------------------------------- */
@@ -810,8 +790,7 @@ DMB_SIZED_STRUCT(dmb_compile_options)
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 typedef struct dmb_model_info {
     uint32_t struct_size;
-    uint32_t strings, pipes; /* [-] */
-    uint32_t rigid_bodies; /* [-] merged ones count once */
+    uint32_t strings, pipes, rigid_bodies; /* [-] as described; as described; merged ones count once */
     uint32_t nodes, elements; /* [-] nodes; flexible and axial-torsional elements */
     uint32_t contact_points, degrees_of_freedom; /* [-] contact points; free velocity components, prescribed ones not counted */
     uint32_t prescribed, structural_joints; /* [-] components moved by drives; fixed joints that cost no unknowns */

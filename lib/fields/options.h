@@ -120,8 +120,7 @@
     FIELD(T, 10, structural_damping, "-", WITHIN(0.0, 1e3), 0.0) \
     FIELD(T, 11, equilibrium_tolerance, "-", WITHIN(1e-6, 1.0), 1e-6) \
     FIELD(T, 12, report, "", ANY, NULL) \
-    FIELD(T, 13, unused, "", ANY, NULL) \
-    FIELD(T, 14, spin, "rad/s", WITHIN(-DMB_SLIP_MAX, DMB_SLIP_MAX), 0.0)
+    FIELD(T, 13, spin, "rad/s", WITHIN(-DMB_SLIP_MAX, DMB_SLIP_MAX), 0.0)
 
 #define DMB_FATIGUE_OPTIONS_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, classes, "-", WITHIN(8, 65536), 1024) \

@@ -202,7 +202,7 @@ void dmb_options_get(dmb_check *check, const dmb_field_list *list, const void *g
     memcpy(out, &list->size, sizeof list->size);
     if (given != NULL && dmb_struct_read(out, list->size, list->oldest, given) < 0)
         dmb_check_fail(check, DMB_ERR_STRUCT_SIZE, "struct_size", *(const uint32_t *)given,
-                       "that of this library's header or an older one");
+                       "that of this library's header or an older one; fill the struct by its _default first");
     for (uint32_t i = 0; i < list->count; ++i) /* numbers, or not checked by themselves */
         if (list->fields[i].bound != DMB_BOUND_ANY) check_numbers(check, &list->fields[i], out);
 }

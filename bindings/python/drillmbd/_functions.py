@@ -284,11 +284,11 @@ FUNCTION_DOCS = {
     "dmb_analysis_check":
         "Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that of the partition the sim steps with (a warning if they differ). Calls the callbacks of constraints. Cost: elements, and the cube of the coordinates of each cluster. Errors: ERR_CALLBACK, _SINGULAR.",
     "dmb_analysis_check_text":
-        "The same as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. NOTE_FULL if the text is cut. Errors as dmb_analysis_check.",
+        "The same (errors too) as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. NOTE_FULL: it is cut.",
     "dmb_analysis_friction_factor":
         "The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m] measured at the rig in one operation at the first of the depths. Errors as dmb_analysis_torque_drag; ERR_VALUE where none does: the message states the range. About 60 times the work of a row.",
     "dmb_analysis_hydraulics":
-        "Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by at most its length, in steady flow, without gel strength (Burkhardt 1961); trip speeds 0 .. 10 m/s. Errors: ERR_UNSUPPORTED without a flow_rate. O(length / 2 m).",
+        "Pressures of mud with the string's far end at a measured depth [m], beyond its start_depth by at most its length, in steady flow without gel strength (Burkhardt 1961); trip speed 0 .. 10 m/s. ERR_UNSUPPORTED: no flow_rate. O(length / 2 m).",
     "dmb_analysis_mesh":
         "Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of dmb_pipe_def.elements (eq:beam.mesh-error): bending stress of an element between two points of contact over the yield strength (yield_strength, else a strain of 0.003). It falls with the square of the length of the elements. error [-], shape (capacity): by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; any number of threads. O(elements).",
     "dmb_analysis_modes":
@@ -382,7 +382,7 @@ FUNCTION_DOCS = {
     "dmb_model_place_at_end":
         "Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other joints hold there. Either may be NULL. Errors as dmb_model_add_sub.",
     "dmb_model_read":
-        "Makes the model of a record, open for changes before dmb_model_compile. Its scene is the same to the bit, and its ids have the same index as those of the model that was written. Errors: ERR_NULL, _VALUE (damaged: length, checksum or content), _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then, dmb_last_error has the reason.",
+        "Makes the model of a record, open for changes before dmb_model_compile. Its scene is the same to the bit, its ids have the same indices. Errors: ERR_NULL, _VALUE (damaged: length, checksum or content), _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then, dmb_last_error has the reason.",
     "dmb_model_set_name":
         "Gives a part another name, or none by \"\"; an input or an event needs one. Before dmb_model_compile.",
     "dmb_model_write":
@@ -400,7 +400,7 @@ FUNCTION_DOCS = {
     "dmb_operation_usual":
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, 0.005 m/s while drilling; loads on the bit 0.",
     "dmb_output_check":
-        "Checks that this sim has each output; dmb_sim_message names the first missing one, and a valid place. Errors as dmb_query_output.",
+        "Checks this sim for each output; dmb_sim_message: the first missing one and a valid place. Errors as dmb_query_output.",
     "dmb_output_name":
         "\"bit_speed\", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change.",
     "dmb_output_next":
@@ -416,7 +416,7 @@ FUNCTION_DOCS = {
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for another number; from 0 without gaps.",
     "dmb_profile_recorder_take":
-        "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile; ERR_ORDER before the time of the last row, as after a restore: set row_count to the number of rows to keep.",
+        "As dmb_recorder_take, with the errors of dmb_query_profile.",
     "dmb_profile_recorder_write_csv":
         "CSV, a line for each row and station: time [s], station, then the quantities with their units. ERR_IO.",
     "dmb_query_constraint_rows":
@@ -506,7 +506,7 @@ FUNCTION_DOCS = {
     "dmb_sim_set_on_step":
         "From now on `function` is called in the thread of the call after each dmb_sim_step, each step of dmb_sim_steps and each of dmb_sim_advance and _advance_to_event that is accepted for good: not parts of a divided step, nor steps that are repeated to locate an event. Nonzero before the end of the call: NOTE_STOPPED. dmb_analysis_stepped_sine calls it too, and is not ended by it. NULL (default): none. Not in snapshots and hashes.",
     "dmb_sim_set_progress":
-        "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals (examples/programming, Runs) in the thread of the call (an eigenproblem of LAPACK is one interval). Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state; dmb_sim_advance there with NOTE_CANCELLED). A signal handler or another thread sets a flag that the function reads. NULL (default): none. Not in snapshots and hashes.",
+        "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals (examples/programming, Runs) in the thread of the call (an eigenproblem of LAPACK is one interval). Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state; dmb_sim_advance there with NOTE_CANCELLED). NULL (default): none. Not in snapshots and hashes.",
     "dmb_sim_snapshot_size":
         "Snapshot of all that changes: bytes, save into and restore from the caller's memory. It fits every sim of the same compiled model with the same options, which continues bit for bit. Bytes that are no state of it, forged ones too, are refused (ERR_VALUE, the message states field, value and bound); accepted bytes cannot lead a step out of bounds. About 0.9 kB an element are factors kept from step to step (none with joints).",
     "dmb_sim_step":
@@ -514,7 +514,7 @@ FUNCTION_DOCS = {
     "dmb_sim_steps":
         "`count` calls of dmb_sim_step with the same duration in one, with the same bits. *done (may be NULL): [-] accepted calls. The report has the sums and maxima of them all. The status is the largest note of a step, with its message, NOTE_STOPPED, or the error that ended the calls, as dmb_sim_step; the state is then that after *done of them.",
     "dmb_sim_steps_to_event":
-        "As dmb_sim_steps, with the same bits, but ends after the step in which the first event is: NOTE_EVENT. No step is changed: `events` has all of that step, and `crossing` is where the parabola through the output at three ends of steps meets the level (lib/theory/integration.md), with an error of third order where the output is smooth, else up to the step. A crossing and return within one step is missed; dmb_sim_advance_to_event takes shorter steps where the tolerances ask for them. Notes and errors as dmb_sim_steps; ERR_VALUE: no events.",
+        "As dmb_sim_steps, with the same bits, but ends after the step in which the first event is: NOTE_EVENT. No step is changed: `events` has all of that step, and `crossing` is where the parabola through the output at three ends of steps meets the level (lib/theory/integration.md), with an error of order 3 where the output is smooth, else up to the step. dmb_sim_advance_to_event takes shorter steps where tolerances ask. Notes, errors as dmb_sim_steps; ERR_VALUE: no events.",
     "dmb_sim_transfer_state":
         "Continues from the state of `from` in a sim of another model that has pipes more or fewer at the rig end of its strings; the start of its strings and its time functions may differ, all else must be of the same kind and number (ERR_VALUE names the difference). examples/programming, Joints and strings that change, has the rules. Do it at rest: speeds that the supports of the new rig end do not allow are projected (NOTE_PROJECTED). Errors: ERR_GEOMETRY (a joint does not fit), _SINGULAR, _NO_CONVERGENCE, _ROTATION, _CALLBACK. O(elements).",
     "dmb_sim_value":

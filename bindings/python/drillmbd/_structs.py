@@ -188,7 +188,7 @@ class EnvironmentDef(Sized):
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
         "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
-        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag, at any pose of the string"),
+        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters. For pressures and drag"),
     }
 
 
@@ -307,11 +307,11 @@ class StringDef(Sized):
         "follows_hole": ("", "1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1"),
         "start_depth": ("m", "measured depth of the rig end; default 0"),
         "offset": ("m", "sideways shift from the hole's axis along its y and z axes; default 0"),
-        "position": ("m", "rig end and rotation vector of its frame, world frame, if follows_hole is 0 or there is no hole"),
-        "rotation": ("rad", "rig end and rotation vector of its frame, world frame, if follows_hole is 0 or there is no hole"),
+        "position": ("m", "rig end (world, if follows_hole is 0 or there is no hole)"),
+        "rotation": ("rad", "its rotation vector"),
         "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0"),
-        "start_free": ("-", "sets of free components at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
-        "end_free": ("-", "sets of free components at the rig end, the far end; default FREE_CYLINDRICAL, FREE_ALL"),
+        "start_free": ("-", "sets of free components at the rig end, the far end: with X in both and no drive along it the string slides, and a load on its bit pushes it out of the hole; default FREE_CYLINDRICAL, FREE_ALL"),
+        "end_free": ("-", "sets of free components at the rig end, the far end: with X in both and no drive along it the string slides, and a load on its bit pushes it out of the hole; default FREE_CYLINDRICAL, FREE_ALL"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
     }
 
@@ -426,8 +426,8 @@ class ModelInfo(Sized):
         ("reduced_nodes", c_uint32),
     ]
     field_docs = {
-        "strings": ("-", ""),
-        "pipes": ("-", ""),
+        "strings": ("-", "as described"),
+        "pipes": ("-", "as described"),
         "rigid_bodies": ("-", "merged ones count once"),
         "nodes": ("-", "nodes"),
         "elements": ("-", "flexible and axial-torsional elements"),
@@ -640,8 +640,8 @@ class ContactTotal(Sized):
     ]
     field_docs = {
         "closed": ("-", "contact points that touch"),
-        "normal_force": ("N", "sum over the contact points"),
-        "friction": ("N", "sum of the friction components"),
+        "normal_force": ("N", "sum over points"),
+        "friction": ("N", "sum by component"),
         "deepest": ("m", "largest penetration, >= 0"),
     }
 
@@ -671,7 +671,7 @@ class Energy(Sized):
         def __init__(self, *, kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., gravity: SupportsFloat = ..., contact: SupportsFloat = ..., drives: SupportsFloat = ..., loads: SupportsFloat = ..., friction: SupportsFloat = ..., impact: SupportsFloat = ..., damping: SupportsFloat = ..., rock: SupportsFloat = ..., scheme: SupportsFloat = ..., input: SupportsFloat = ..., balance: SupportsFloat = ..., unexplained: SupportsFloat = ..., error: SupportsFloat = ..., scale: SupportsFloat = ..., growth: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("reserved", c_int32),
+        ("reserved", c_uint32),
         ("kinetic", c_double),
         ("strain", c_double),
         ("gravity", c_double),
@@ -701,7 +701,7 @@ class Energy(Sized):
         "impact": ("J", "dissipated by the damping of the normal law and of stops, and by dmb_sim_set_joint: impulses, springs released less those engaged, so it may be negative"),
         "damping": ("J", "dissipated by material and external damping and dampers of joints"),
         "rock": ("J", "spent at the bit"),
-        "scheme": ("J", "taken out by the time integration: work of its discrete forces less change of energies (eq:motion.work)"),
+        "scheme": ("J", "taken out by the integration: work of its discrete forces less change of energies (eq:motion.work)"),
         "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads"),
         "balance": ("J", "input and changes of energy that physics leaves open: scheme + unexplained"),
         "unexplained": ("J", "balance - scheme: from unconverged iterations only"),
@@ -732,7 +732,7 @@ class Momentum(Sized):
     field_docs = {
         "linear": ("kg m/s", "linear; angular about the world's origin; world frame"),
         "angular": ("kg m2/s", "linear; angular about the world's origin; world frame"),
-        "mass": ("kg", ""),
+        "mass": ("kg", "of all parts"),
         "centre": ("m", "centre of mass, world frame"),
     }
 
@@ -813,7 +813,7 @@ class JointState(Sized):
         "position": ("m, rad", "coordinates, RX and RY over full turns, and their rates"),
         "speed": ("m/s, rad/s", "coordinates, RX and RY over full turns, and their rates"),
         "acceleration": ("m/s2, rad/s2", "rate of `speed`"),
-        "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b; redundant: of least norm"),
+        "reaction": ("N, N m", "force and moment of the constraint on b from a, at b's origin; redundant: of least norm"),
         "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates"),
         "violation": ("m, -", "largest violation of its equations of position"),
     }
@@ -907,7 +907,7 @@ class Statistics(Sized):
         "switches": ("-", "times the independent coordinates of a cluster were chosen again"),
         "dependent": ("-", "coordinates that constraints determine now, equations that are dropped now"),
         "redundant": ("-", "coordinates that constraints determine now, equations that are dropped now"),
-        "violation": ("m, -", "largest violation of an equation of position of a joint now, not of couplings, drives and callers' constraints"),
+        "violation": ("m, -", "largest violation of a joint's equation of position now, not of couplings, drives, constraints"),
         "bounces": ("-", "contacts with the wall, stops of joints and springs that opened within fewer than ten steps after they closed: steps do not resolve them, and their speeds after it are uncertain. Lasting contacts are not counted."),
     }
 
@@ -963,10 +963,10 @@ class HolePoint(Sized):
         "normal": ("-", "unit, to greater depth; to the centre of curvature, 0 where straight; world frame"),
         "curvature": ("rad/m", ">= 0"),
         "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
-        "inclination": ("rad", "from the downward vertical, 0 .. pi"),
-        "azimuth": ("rad", "from +x (north) to -y (east), -pi .. pi, 0 if vertical"),
-        "diameter": ("m", "and the wall's other constants here (scene.h):"),
-        "stiffness": ("N/m^(n+1)", "per metre of pipe"),
+        "inclination": ("rad", "from downward vertical, 0 .. pi"),
+        "azimuth": ("rad", "from +x (north) to -y (east), -pi .. pi, vertical: 0"),
+        "diameter": ("m", "of the hole"),
+        "stiffness": ("N/m^(n+1)", "per metre of pipe (and the wall's other constants: scene.h)"),
         "restitution": ("-", "per metre of pipe"),
         "damping": ("N s/m2", "per metre of pipe"),
         "mu_static": ("-", ""),
@@ -1099,7 +1099,7 @@ class StuckState(Sized):
 
 
 class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over outputs ---------------------------------------------------------------------------------------- Minimum, maximum and mean of outputs over the last `length` seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    c_name, about = "dmb_window_options", "Minimum, maximum and mean of outputs over the last `length` seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
     struct_size: int
     slots: int
     length: float
@@ -1390,7 +1390,7 @@ class PathReport(Sized):
 
 
 class CheckReport(Sized):
-    c_name, about = "dmb_check_report", "Model check ------------------------------------------------------------------------------------------------- The parts of a scene, its degrees of freedom, and warnings."
+    c_name, about = "dmb_check_report", "The parts of a scene, its degrees of freedom, and warnings."
     struct_size: int
     rigid_parts: int
     flexible_parts: int
@@ -1719,7 +1719,7 @@ class ResponseOptions(Sized):
 
 
 class SteppedSineOptions(Sized):
-    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------- Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
+    c_name, about = "dmb_stepped_sine_options", "Response in time to the scene's own time functions at one frequency, where the linear one fails: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state by dmb_sim_transfer_state. Different sims may run in parallel, with the same bits."
     struct_size: int
     steps_per_period: int
     periods: int
@@ -1978,7 +1978,7 @@ class Parameter(Sized):
         ("name", c_char * 24),
     ]
     field_docs = {
-        "one_sided": ("", "1: steps are taken on the high side only, at half the cost, errors of first order in `step`, not of second; default 0"),
+        "one_sided": ("", "1: steps on the high side only, half the cost, errors of first order in `step`, not second; default 0"),
         "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
         "low": ("", "only read, and only by dmb_sensitivity_create"),
         "high": ("", "as `low`"),
@@ -2007,8 +2007,8 @@ class Operation(Sized):
     field_docs = {
         "axial_speed": ("m/s", "along the hole, > 0 into it; about its axis; friction is along their sum at the pipe's surface; default 0"),
         "rotary_speed": ("rad/s", "along the hole, > 0 into it; about its axis; friction is along their sum at the pipe's surface; default 0"),
-        "weight_on_bit": ("N", "against the string's end, along the hole; >= 0, against the rotation; default 0"),
-        "torque_on_bit": ("N m", "against the string's end, along the hole; >= 0, against the rotation; default 0"),
+        "weight_on_bit": ("N", "on the string's end, towards the rig; default 0"),
+        "torque_on_bit": ("N m", "against rotation, >= 0; default 0"),
     }
 
 
@@ -2156,7 +2156,7 @@ class FatigueOptions(Sized):
         "curve_cycles": ("-", "amplitude borne for curve_cycles, > 0; the user's, no default; cycles 1e6"),
         "slope": ("-", "1 .. 50, the user's, no default"),
         "endurance": ("Pa", "amplitudes up to this do no damage, >= 0, default 0"),
-        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): the mean does not count"),
+        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean > 0; 0 (default): without"),
     }
     bounds = {
         "classes": ("within", 8, 65536),
@@ -2218,11 +2218,11 @@ LOG_FN.__doc__ = "Called with a line of text, never during a step. The text live
 
 
 TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
-TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-UNLIMITED. Returns 0, or nonzero to stop."
+TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-UNLIMITED. Nonzero stops."
 
 
 ACCEPT_FN = CFUNCTYPE(None, c_void_p, c_double, c_uint32, POINTER(c_double))
-ACCEPT_FN.__doc__ = "Called once for each accepted step, just before the function of accepted steps (run.h). `number`: of the contact point of the wall; 0 of a force."
+ACCEPT_FN.__doc__ = "Called at each accepted step, just before the function of accepted steps (run.h). number: the contact point, 0 of a force."
 
 
 CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
@@ -2238,7 +2238,7 @@ PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never fal
 
 
 STEP_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p)
-STEP_FN.__doc__ = "Sees the sim after an accepted step; may query, record and save it, but not change it. Returns 0, or nonzero to end the call."
+STEP_FN.__doc__ = "Sees the sim after an accepted step; may query, record and save it, not change it. Nonzero ends the call."
 
 
 class Place(Record):
@@ -2419,7 +2419,7 @@ class PipeDef(Sized):
 
 
 class StabiliserDef(Sized):
-    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle."
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. It has a node of its own (examples/programming, Parts on strings). {its id, 0, 0}: its middle, in queries, loads, springs, joints, forces."
     struct_size: int
     pipe: int
     string: Id
@@ -2453,7 +2453,7 @@ class StabiliserDef(Sized):
         "outer_diameter": ("m", "that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09"),
         "length": ("m", "> 0; default 0.3"),
         "mass": ("kg", "0: of a hollow cylinder around the pipe, of `density`; default 0"),
-        "inertia": ("kg m2", "about its axis and across, at the middle, first <= twice second; 0 (default): of that cylinder"),
+        "inertia": ("kg m2", "about its axis and across, at the middle, first <= twice second; 0 (default): the cylinder's"),
         "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
         "name": ("", "for messages, ends with 0; default \"\""),
         "added_mass": ("kg", "of mud that moves with it, besides that of the pipe, along its axis and across, >= 0; default 0, and NOT_GIVEN across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out"),
@@ -2512,7 +2512,7 @@ class BodyDef(Sized):
         "contact_length": ("m", "length of wall that it represents, > 0; default 1"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
-        "added_mass": ("kg", "added mass of the mud along body x and across, at the x of the centre of mass, as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). It has no weight; >= 0; default 0"),
+        "added_mass": ("kg", "added mass of mud along body x and across, at the x of the centre of mass, as of a body of revolution in mud at rest (sphere: half that displaced; disc along its axis: 8/3 rho r^3), weightless; >= 0; default 0"),
     }
 
 
@@ -2577,7 +2577,7 @@ class BitDef(Sized):
         "string": ("", "the bit is fixed to the far end of it; {0, 0}: the model's first string"),
         "load": ("N", "time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none"),
         "mass": ("kg", "> 0; default 5"),
-        "inertia": ("kg m2", "about the axis and across, at the centre, first <= twice second; 0 (default): of a solid cylinder"),
+        "inertia": ("kg m2", "about the axis and across, at the centre, first <= twice second; 0 (default): solid cylinder"),
         "diameter": ("m", "gauge that meets the wall, <= hole, 0: no contact; default 0.092"),
         "length": ("m", "> 0, centre at half of it beyond the string's end; default 0.1"),
         "radius": ("m", "a of the rock law, > 0; default 0.047"),
@@ -2618,7 +2618,7 @@ class CouplingDef(Sized):
         def __init__(self, *, name: str | bytes = ..., joint: Iterable[Any] = ..., component: Iterable[Any] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("reserved", c_int32),
+        ("reserved", c_uint32),
         ("name", c_char * 24),
         ("joint", Id * 2),
         ("component", c_int32 * 2),
@@ -2697,11 +2697,11 @@ class DriveDef(DrivePart, Sized):
         ("back_drag", c_double),
         ("inertia", c_double),
         ("curve_count", c_uint32),
-        ("reserved2", c_int32),
+        ("reserved2", c_uint32),
         ("curve_speed", c_double * 8),
         ("curve_force", c_double * 8),
         ("gain_count", c_uint32),
-        ("reserved3", c_int32),
+        ("reserved3", c_uint32),
         ("gain_error", c_double * 16),
         ("gain_force", c_double * 16),
         ("mud_pressure", c_double),
@@ -2766,10 +2766,10 @@ class InputDef(Sized):
         "target": ("", "TARGET_..., default TARGET_SET_POINT"),
         "name": ("", "required, unique among the inputs, ends with 0"),
         "part": ("", "drive, load, bit or stuck place; {0, 0} of wall and environment"),
-        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the time function, until the input is set"),
+        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, until it is set: of SET_POINT, LOAD_FACTOR and BIT_LOAD by the time function"),
         "low": ("unit of the target", "bounds, low <= high; default -UNLIMITED, UNLIMITED: those of the target"),
         "high": ("unit of the target", "bounds, low <= high; default -UNLIMITED, UNLIMITED: those of the target"),
-        "rate_limit": ("unit/s", "of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
+        "rate_limit": ("unit/s", "of SET_POINT, LOAD_FACTOR, BIT_LOAD: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
         "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then reaches the set point in the least time that both limits allow"),
         "outside": ("", "OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound"),
     }
@@ -2936,9 +2936,9 @@ class BucklingOptions(Sized):
         "scale": ("", "SCALE_..., default SCALE_LOADS"),
         "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
         "part": ("", "load or drive of SCALE_PART"),
-        "factor_max": ("unit of the factor", "largest factor that is sought, > 0; default 1e12"),
-        "tolerance": ("-", "relative, of factors, 1e-15 .. 0.1; default 1e-10"),
-        "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): moves the string by a millionth of an element"),
+        "factor_max": ("unit of the factor", "largest sought, > 0; default 1e12"),
+        "tolerance": ("-", "relative, 1e-15 .. 0.1; default 1e-10"),
+        "step": ("unit of the factor", "difference for the change of the stiffness; 0 (default): strings move by 1e-6 elements"),
         "slip_axial": ("m/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
         "slip_rotation": ("rad/s", "friction as in dmb_static_options, the stiffness is unsymmetric then"),
     }
@@ -2970,10 +2970,9 @@ class SpeedsOptions(Sized):
     structural_damping: float
     equilibrium_tolerance: float
     report: Any
-    unused: Any
     spin: float
     if TYPE_CHECKING:
-        def __init__(self, *, points: int = ..., speed_low: SupportsFloat = ..., speed_high: SupportsFloat = ..., threshold: SupportsFloat = ..., margin: SupportsFloat = ..., refinement: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., report: Any = ..., unused: Any = ..., spin: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, points: int = ..., speed_low: SupportsFloat = ..., speed_high: SupportsFloat = ..., threshold: SupportsFloat = ..., margin: SupportsFloat = ..., refinement: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., report: Any = ..., spin: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -2989,7 +2988,6 @@ class SpeedsOptions(Sized):
         ("structural_damping", c_double),
         ("equilibrium_tolerance", c_double),
         ("report", POINTER(SpeedsReport)),
-        ("unused", c_void_p),
         ("spin", c_double),
     ]
     field_docs = {
@@ -3005,8 +3003,7 @@ class SpeedsOptions(Sized):
         "structural_damping": ("-", "as of a response, same defaults"),
         "equilibrium_tolerance": ("-", "as of a response, same defaults"),
         "report": ("", "written where the call succeeds; NULL (default): none"),
-        "unused": ("", "NULL"),
-        "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses are out of balance there (equilibrium_tolerance)"),
+        "spin": ("rad/s", "as of dmb_response_options; default 0. After a static state with slip_rotation of this speed and friction 1 the string lies where friction carries it; eccentric masses are out of balance there: equilibrium_tolerance"),
     }
     bounds = {
         "points": ("within", 2, 100000),
@@ -3210,7 +3207,7 @@ class WallDef(WallPart, Sized):
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
-        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
+        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between stations, straight on beyond the last one; shape (survey_count, 3); copied"),
         "origin": ("m", "start of the axis, world frame; default 0"),
         "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0)"),
         "diameter": ("m", "of the hole, > 0; default 0.094"),
@@ -3231,8 +3228,8 @@ class WallDef(WallPart, Sized):
         "bristle_damping": ("s/m", ">= 0, tangential, over normal force; default 0"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
-        "cut_start": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; default 0"),
-        "cut_end": ("m", "measured depths of the first and last station, >= 3 spacings apart: nothing is cut beyond; default 0"),
+        "cut_start": ("m", "measured depths of first and last station, >= 3 spacings apart: no cut beyond; default 0"),
+        "cut_end": ("m", "measured depths of first and last station, >= 3 spacings apart: no cut beyond; default 0"),
         "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
         "friction_state_count": ("-", "numbers of its state at a contact point, 0 .. 16; default 0"),
         "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
@@ -3650,8 +3647,8 @@ class SimOptions(Sized):
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
         "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the balancing forces"),
-        "tolerance_translation": ("m", "local error of a step of dmb_sim_advance, > 0; default 1e-6, 1e-5"),
-        "tolerance_rotation": ("rad", "local error of a step of dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "tolerance_translation": ("m", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
+        "tolerance_rotation": ("rad", "local error in dmb_sim_advance, > 0; default 1e-6, 1e-5"),
         "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
         "step_max": ("s", "longest, > step_min; default 0.1"),
         "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
@@ -3683,7 +3680,7 @@ class SimOptions(Sized):
 
 
 class ProfileRecorderStruct(Sized):
-    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------- Rows of whole profiles, at a coarser rate, in the caller's memory."
+    c_name, about = "dmb_profile_recorder", "Rows of whole profiles, at a coarser rate, in the caller's memory."
     struct_size: int
     reserved: int
     profile: Any
@@ -3915,7 +3912,7 @@ class RecorderStruct(Sized):
 
 
 class Order(Sized):
-    c_name, about = "dmb_order", "Safe speeds ------------------------------------------------------------------------------------------------- A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by a tricone bit, at the number of blades times W by the cut."
+    c_name, about = "dmb_order", "A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by a tricone bit, at the number of blades times W by the cut."
     struct_size: int
     reserved: int
     order: float

@@ -27,7 +27,7 @@ class Status(IntEnum):
     NOTE_EVENT: done up to an event, the message names it
     ERR_NULL: a required pointer is NULL
     ERR_HANDLE: not a live object of this kind
-    ERR_STRUCT_SIZE: struct_size is not a size of this library
+    ERR_STRUCT_SIZE: struct_size is not a size of this library; fill structs by their _default first
     ERR_ID: the id does not name a part of this model
     ERR_VALUE: a value lies outside its bounds
     ERR_NOT_FINITE: a value is NaN or infinite
@@ -734,7 +734,7 @@ class ProfileQuantity(IntEnum):
     YIELD_SHARE: [-] of `yield_strength`; NaN where the pipe has none
     SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in compression where nothing presses the pipe to the wall
     HELICAL_SHARE: [-] compression over the helical buckling load
-    VELOCITY_AXIAL: [m/s] along the pipe's axis
+    VELOCITY_AXIAL: [m/s] along the pipe
     VELOCITY_LATERAL: [m/s] across, magnitude
     SPIN: [rad/s] about the pipe's axis
     ACCELERATION_AXIAL: [m/s2] of the section's centre, along the pipe's axis
@@ -894,7 +894,7 @@ OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
 class Reading(IntEnum):
     """Values DMB_OUTPUT_... of the headers.
 
-    HOOK_LOAD: [N] effective axial force at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
+    HOOK_LOAD: [N] effective axial force at the rig end, as dmb_query_section: > 0 pull, < 0 thrust
     ROTATION_TORQUE: [N m] that the rig puts into that section, > 0 along the string's x axis
     WEIGHT_ON_BIT: [N] of all bits on the string: rock law and bottom-hole load
     TORQUE_ON_BIT: [N m] of all bits on the string: rock law, against the rotation
@@ -905,7 +905,7 @@ class Reading(IntEnum):
     FEED_SPEED: [m/s] along its axis, of the string's rig end, > 0 into the hole
     STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
     WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
-    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
+    OFF_BOTTOM: [-] 1: no bit with a rock law is on bottom, else 0; its mean in windows: off-bottom share
     RIG_FORCE: [N] by support and drives on the rig end, > 0 the rig pulls: hook load, and inertia, weight and friction of the end itself; 0 where a joint holds it
     RIG_TORQUE: [N m] by support and drives, > 0 along the string's x axis
     BIT_ADVANCE: [m]
