@@ -1,8 +1,8 @@
-/* The cost of derivatives along a run. usage: sensitivity CSV G [PARAMETERS SIDES]
+/* The cost of derivatives along a run. usage: sensitivity CSV G [PARAMETERS SIDES [STEPS]]
  *
  * Scene G: scene B, the string that falls on its wall and turns, with the derivatives by its friction factor, taken as
  * 0, 1, 2 and 4 parameters at once, on both sides (2) or on the high side only (1). With PARAMETERS and SIDES one case
- * alone, so that its instructions can be counted:
+ * alone, after the given STEPS (200: the string bounces; 1000: it lies), so that its instructions can be counted:
  *     valgrind --tool=callgrind --toggle-collect=timed_steps build/release/tests/bench_sensitivity /dev/null G 1 2
  * less the same with 0 parameters, over the latter, are the steps a parameter costs. */
 #define _POSIX_C_SOURCE 200809L
@@ -87,13 +87,13 @@ __attribute__((noinline)) static int32_t timed_steps(three *t, double *seconds)
 }
 
 /* [s] a step, the median of some runs; < 0 after saying what failed. */
-static double measure_case(const ways *w, int repeats)
+static double measure_case(const ways *w, int repeats, int before)
 {
     double seconds[REPEATS];
     for (int i = 0; i < repeats; i++) {
         three t;
         int32_t status = open_three(&t, w);
-        if (status >= 0) status = go(&t, STEPS_BEFORE);
+        if (status >= 0) status = go(&t, before);
         if (status >= 0) status = timed_steps(&t, &seconds[i]);
         if (status < 0) row_failed("G", 100.0, "derivatives", dmb_status_name(status), dmb_sim_message(t.sim[0]));
         close_three(&t);
@@ -120,7 +120,7 @@ static int run_cases(void)
     static const ways cases[CASES] = {{0, 2}, {1, 2}, {2, 2}, {4, 2}, {1, 1}, {2, 1}, {4, 1}};
     double plain = 0.0;
     for (int i = 0; i < CASES; i++) {
-        const double seconds = measure_case(&cases[i], REPEATS);
+        const double seconds = measure_case(&cases[i], REPEATS, STEPS_BEFORE);
         if (seconds < 0.0) return 1;
         if (i == 0) plain = seconds;
         put_row(&cases[i], seconds, plain);
@@ -130,11 +130,12 @@ static int run_cases(void)
 
 int main(int count, char **words)
 {
-    if (count != 3 && count != 5) return fputs("usage: sensitivity CSV G [PARAMETERS SIDES]\n", stderr), 2;
-    if (count == 5) {
+    if (count < 3 || count == 4 || count > 6)
+        return fputs("usage: sensitivity CSV G [PARAMETERS SIDES [STEPS]]\n", stderr), 2;
+    if (count > 4) {
         const ways w = {(uint32_t)strtoul(words[3], NULL, 10), strcmp(words[4], "1") == 0 ? 1 : 2};
         if (w.parameters > MOST_PARAMETERS) return fputs("sensitivity: at most 4 parameters\n", stderr), 2;
-        return measure_case(&w, 1) < 0.0;
+        return measure_case(&w, 1, count > 5 ? atoi(words[5]) : STEPS_BEFORE) < 0.0;
     }
     if (table_open(&results, &unit, words[1]) != 0) return 2;
     const int failed = run_cases();
