@@ -55,7 +55,8 @@ static inline int are_same_axial_torsional(const dmb_axial_torsional_args *args,
                                            const axial_torsional_constants *c)
 {
     uint32_t other = g->used < DMB_REAL_LANES || DMB_REAL_LANES == 1 ? 1 : 0;
-    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * args->type[place_at(g, (uint32_t)l) / 2]);
+    for (uint32_t l = 0; l < DMB_REAL_LANES && other == 0; l += 2)
+        other |= c->key[l] ^ (1 + 2 * args->type[(g->first + l) / 2]);
     return other == 0;
 }
 
@@ -76,6 +77,11 @@ static inline void load_axial_torsional_group(const dmb_axial_torsional_args *ar
 static inline dmb_real load_place(const dmb_axial_torsional_args *args, const lane_group *g, size_t after)
 {
     dmb_real x = dmb_real_of(0.0);
+    if (DMB_REAL_LANES > 1 && is_whole(g)) { /* in pairs: groups begin with the first row of a node */
+        const double *u = args->displacement + 3 * (g->first / 2 + after), *turn = args->turn + g->first / 2 + after;
+        for (int l = 0; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, l, l & 1 ? turn[l / 2] : u[3 * (l / 2)]);
+        return x;
+    }
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t node = place_at(g, (uint32_t)l) / 2 + after;
         dmb_real_set_lane(&x, l, place_at(g, (uint32_t)l) & 1 ? args->turn[node] : args->displacement[3 * node]);
@@ -83,20 +89,37 @@ static inline dmb_real load_place(const dmb_axial_torsional_args *args, const la
     return x;
 }
 
-/* Forces on the far nodes of a group's last elements. They are added together with the forces of the next group on the
- * same nodes, which avoids store-forwarding stalls. */
+/* Forces on the far nodes of the last two groups' elements. They are added together with the forces of the next group
+ * on the same nodes, which avoids store-forwarding stalls. */
 typedef struct axial_torsional_ends {
-    double residual[2], scale[2];
+    dmb_real residual[2], scale[2];
 } axial_torsional_ends;
 
-/* x shifted by two rows: the first two come from the previous group's `last`, which is then updated. */
-static inline dmb_real two_rows_on(dmb_real x, const lane_group *g, double last[2])
+/* x shifted by two rows: the first two come from the groups before, which x then joins. */
+static inline dmb_real two_rows_on(dmb_real x, dmb_real before[2])
 {
+#if DMB_REAL_LANES == 1
+    const dmb_real on = before[0];
+#elif !defined(DMB_LANES_TRANSPOSED)
     dmb_real on = x;
-    for (int l = 0; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&on, l, l < 2 ? last[l] : dmb_real_lane(&x, l - 2));
-    last[0] = g->used > 1 ? dmb_real_lane(&x, (int)g->used - 2) : last[1];
-    last[1] = dmb_real_lane(&x, (int)g->used - 1);
+    for (int l = 0; l < DMB_REAL_LANES; l++)
+        dmb_real_set_lane(&on, l, l < 2 ? dmb_real_lane(before + 1, DMB_REAL_LANES - 2 + l) : dmb_real_lane(&x, l - 2));
+#elif DMB_LANES == 4
+    const dmb_real on = __builtin_shufflevector(before[1], x, 2, 3, 4, 5);
+#else
+    const dmb_real on = __builtin_shufflevector(before[1], x, 6, 7, 8, 9, 10, 11, 12, 13);
+#endif
+    before[0] = before[1];
+    before[1] = x;
     return on;
+}
+
+/* Adds the forces on the last node; `rows` of all elements. */
+static inline void add_last(const dmb_real before[2], uint32_t rows, double *to)
+{
+    for (uint32_t i = 0; i < 2; i++)
+        to[i] += DMB_REAL_LANES == 1 ? dmb_real_lane(before + i, 0)
+                                     : dmb_real_lane(before + 1, (int)((rows - 2 + i) % DMB_REAL_LANES));
 }
 
 static inline void add_line(dmb_real a, dmb_real b, const lane_group *g, double *to)
@@ -138,9 +161,8 @@ static inline void add_axial_torsional_forces(const dmb_axial_torsional_args *ar
                                               const axial_torsional_forces *f, axial_torsional_ends *ends)
 {
     const dmb_real force = f->elastic + f->viscous, size = dmb_real_abs(force);
-    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, args->residual);
-    add_line(size + dmb_real_abs(f->mass_a), two_rows_on(size + dmb_real_abs(f->mass_b), g, ends->scale), g,
-             args->scale);
+    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, ends->residual), g, args->residual);
+    add_line(size + dmb_real_abs(f->mass_a), two_rows_on(size + dmb_real_abs(f->mass_b), ends->scale), g, args->scale);
 }
 
 static void axial_torsional_elements(dmb_axial_torsional_args *args)
@@ -148,7 +170,7 @@ static void axial_torsional_elements(dmb_axial_torsional_args *args)
     const dmb_real zero = dmb_real_of(0.0);
     lane_sum rounding, powers[3];
     axial_torsional_constants constants;
-    axial_torsional_ends ends = {{0.0, 0.0}, {0.0, 0.0}};
+    axial_torsional_ends ends = {{zero, zero}, {zero, zero}};
     memset(&constants, 0, sizeof constants);
     memset(&rounding, 0, sizeof rounding);
     memset(powers, 0, sizeof powers);
@@ -160,10 +182,8 @@ static void axial_torsional_elements(dmb_axial_torsional_args *args)
         if (args->dynamic) motion_forces(args, &g, &constants, powers, &f);
         add_axial_torsional_forces(args, &g, &f, &ends);
     }
-    for (size_t i = 0; i < 2; i++) {
-        args->residual[2 * (size_t)args->count + i] += ends.residual[i];
-        args->scale[2 * (size_t)args->count + i] += ends.scale[i];
-    }
+    add_last(ends.residual, 2 * args->count, args->residual + 2 * (size_t)args->count);
+    add_last(ends.scale, 2 * args->count, args->scale + 2 * (size_t)args->count);
     args->rounding += sum_total(&rounding);
     args->potential -= sum_total(powers);
     args->damping -= sum_total(powers + 1);

@@ -41,8 +41,31 @@ typedef struct arc_lanes {
     dmb_real tangent[3], normal[3], curvature, beyond; /* [m] behind the station */
 } arc_lanes;
 
+/* All lanes on the arc of the last group. */
+static inline void load_one_arc(const dmb_axial_torsional_node_args *args, const wall_node_group *g, arc_lanes *arcs)
+{
+    const dmb_hole_station *station = args->hole->station + g->arc;
+    for (int i = 0; i < 3; i++) {
+        arcs->tangent[i] = dmb_real_of(station->tangent[i]);
+        arcs->normal[i] = dmb_real_of(station->normal[i]);
+    }
+    arcs->curvature = dmb_real_of(station->curvature);
+    arcs->beyond = g->depth - station->depth;
+}
+
+static inline int are_on_one_arc(const dmb_axial_torsional_node_args *args, const wall_node_group *g)
+{
+    const dmb_hole_station *station = args->hole->station + g->arc;
+    return g->arc + 1 < args->hole->stations && !dmb_mask_any(dmb_mask_less(g->depth, dmb_real_of(station->depth))) &&
+           dmb_real_below(g->depth, dmb_real_of(station[1].depth));
+}
+
 static inline void load_arcs(const dmb_axial_torsional_node_args *args, wall_node_group *g, arc_lanes *arcs)
 {
+    if (are_on_one_arc(args, g)) {
+        load_one_arc(args, g, arcs);
+        return;
+    }
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const double s = dmb_real_lane(&g->depth, l);
         g->arc = arc_from(args->hole, s, g->arc);

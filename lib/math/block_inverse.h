@@ -249,6 +249,24 @@ static inline void away(const dmb_block_layout *layout, const dmb_block_matrix *
         solve_away(p.n, p.m, p.parts.U, rhs + p.next_row, rhs + p.row);
 }
 
+/* Blocks of two rows without gaps: the same, both ends in turn, since each waits for its neighbour. Of an even number
+ * of blocks the first goes ahead, so that the middle receives the upper update first. */
+static inline void two_solve(uint32_t count, const double *D, const double *U, const double *L, double *b)
+{
+    const size_t middle = count / 2, ahead = 1 - count % 2;
+    if (ahead) solve_towards(2, 2, D, L, b, b + 2);
+    for (size_t i = ahead, j = count - 1; j > middle; i++, j--) {
+        solve_towards(2, 2, D + 4 * i, L + 4 * i, b + 2 * i, b + 2 * i + 2);
+        solve_towards(2, 2, D + 4 * j, U + 4 * j - 4, b + 2 * j, b + 2 * j - 2);
+    }
+    solve_towards(2, 0, D + 4 * middle, NULL, b + 2 * middle, NULL);
+    for (size_t i = middle, j = middle + 1; j < count; i--, j++) {
+        solve_away(2, 2, U + 4 * i - 4, b + 2 * i, b + 2 * i - 2);
+        solve_away(2, 2, L + 4 * j - 4, b + 2 * j - 2, b + 2 * j);
+    }
+    if (ahead) solve_away(2, 2, U, b + 2, b);
+}
+
 /* Substitution towards the middle: parts as in factor_part. */
 static inline void towards_part(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
                                 uint32_t count, int32_t part, double *rhs)
@@ -285,7 +303,13 @@ static inline void solve_blocks(const dmb_block_layout *layout, const dmb_block_
                                 uint32_t count, double *rhs)
 {
     const uint32_t middle = first + count / 2, end = first + count;
-    if (even_size(layout, first, count) == 6) {
+    const int size = even_size(layout, first, count);
+    if (size == 2) {
+        two_solve(count, matrix->diagonal + layout->diag[first], matrix->upper + layout->link[first],
+                  matrix->lower + layout->link[first], rhs + layout->row[first]);
+        return;
+    }
+    if (size == 6) {
         six_solve(count, matrix->diagonal + layout->diag[first], matrix->upper + layout->link[first],
                   matrix->lower + layout->link[first], rhs + layout->row[first]);
         return;

@@ -64,12 +64,16 @@ static uint32_t move_axial_torsional_nodes(dmb_sim *sim, uint32_t first, uint32_
 {
     const dmb_scene *scene = sim->scene;
     const double *z = sim->increment + scene->layout.row[first];
+    const double *now_displacement = sim->now.displacement, *now_turn = sim->now.turn;
+    double *displacement = sim->trial.displacement, *turn = sim->trial.turn, largest = *turned;
     uint32_t i = first;
     for (; i < end && scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL; i++, z += DMB_NODE_AXIAL_TORSIONAL) {
-        sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
-        sim->trial.turn[i] = sim->now.turn[i] + z[1];
-        *turned = fmax(*turned, z[1] * z[1]);
+        const double square = z[1] * z[1];
+        displacement[3 * i] = now_displacement[3 * i] + z[0];
+        turn[i] = now_turn[i] + z[1];
+        if (square > largest) largest = square;
     }
+    *turned = largest;
     return i - first;
 }
 

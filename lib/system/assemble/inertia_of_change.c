@@ -35,6 +35,12 @@ static void add_both(const lumped *half, const double *restrict z, double *restr
     for (uint32_t k = 0; k < 6; k++) force[6 + k] += half->row[k] * z[6 + k];
 }
 
+/* The same of axial-torsional nodes. */
+static void add_both_axial_torsional(const lumped *half, const double *restrict z, double *restrict force)
+{
+    for (uint32_t k = 0; k < 4; k++) force[k] += half->row[k & 1 ? DMB_RX : DMB_X] * z[k];
+}
+
 void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double factor, double *force)
 {
     lumped half = {{0.0}};
@@ -45,6 +51,10 @@ void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double 
             half = half_of(scene->types + scene->element_type[e], factor);
         if (scene->layout.size[a] + scene->layout.size[a + 1] == 2 * DMB_NODE_SIX_DOF) {
             add_both(&half, change + row, force + row);
+            continue;
+        }
+        if (scene->layout.size[a] + scene->layout.size[a + 1] == 2 * DMB_NODE_AXIAL_TORSIONAL) {
+            add_both_axial_torsional(&half, change + row, force + row);
             continue;
         }
         add_node(scene->layout.size[a], &half, change + row, force + row);

@@ -24,6 +24,12 @@ static void assemble_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass
 
 /* ---- Tension --------------------------------------------------------------------------------------------------- */
 
+/* [N] u: displacements of its nodes (eq:bar.force) */
+static inline double stretch_force(const dmb_element_type *type, const double *u)
+{
+    return type->stiffness[0] * ((u[3] - u[0]) + (type->length - type->rest[0]));
+}
+
 /* [N] Tension of an element at the trial; the strain of a mixed element is stored. */
 static double tension_of(const dmb_sim *sim, uint32_t element)
 {
@@ -33,17 +39,30 @@ static double tension_of(const dmb_sim *sim, uint32_t element)
     const double *u = sim->trial.displacement + 3 * (size_t)a;
     if (scene->layout.size[a] != DMB_NODE_AXIAL_TORSIONAL || scene->layout.size[a + 1] != DMB_NODE_AXIAL_TORSIONAL)
         return type->stiffness[0] * dmb_beam_stretch(type, sim->element_strain + 6 * (size_t)element);
-    return type->stiffness[0] * ((u[3] - u[0]) + (type->length - type->rest[0]));
+    return stretch_force(type, u);
+}
+
+/* 1: tension of the element behind a node follows from the positions of axial-torsional nodes. */
+static int is_stretched(const dmb_scene *scene, uint32_t node)
+{
+    return node + 1 < scene->node_count &&
+           scene->layout.size[node] + scene->layout.size[node + 1] == 2 * DMB_NODE_AXIAL_TORSIONAL;
 }
 
 /* Mean tension of the elements on both sides of each node [N]. */
 static void find_tensions(const dmb_sim *sim, uint32_t first, uint32_t count, double *tension)
 {
-    uint32_t element = dmb_element_between(sim->scene, first, 0);
+    const dmb_scene *scene = sim->scene;
+    const double *u = sim->trial.displacement + 3 * (size_t)first;
+    uint32_t element = dmb_element_between(scene, first, 0);
     double before = element != DMB_NONE ? tension_of(sim, element) : 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t next = sim->scene->node_element[first + i];
-        const double after = next != DMB_NONE ? tension_of(sim, next) : 0.0;
+    for (uint32_t i = 0; i < count; i++, u += 3) {
+        const uint32_t next = scene->node_element[first + i];
+        double after = 0.0;
+        if (next != DMB_NONE && is_stretched(scene, first + i))
+            after = stretch_force(scene->types + scene->element_type[next], u);
+        else if (next != DMB_NONE)
+            after = tension_of(sim, next);
         const double both = element != DMB_NONE && next != DMB_NONE ? 2.0 : 1.0;
         tension[i] = (before + after) / both;
         element = next;
@@ -92,7 +111,9 @@ static void next_chunk(const dmb_scene *scene, uint32_t node, uint32_t end, uint
     const uint32_t most = end - node < CHUNK_NODES ? end - node : CHUNK_NODES;
     const uint32_t count = scene->axial_torsional_site_count;
     const int has = site < count && sites[site].node == node;
-    uint32_t n = 1;
+    /* contact points are in the order of their nodes, one at most on each */
+    const int all = has && count - site >= most && sites[site + most - 1].node == node + most - 1;
+    uint32_t n = all ? most : 1;
     while (n < most) {
         const uint32_t next = has ? site + n : site;
         if ((next < count && sites[next].node == node + n) != has) break;
