@@ -3,6 +3,8 @@
 #include "force/bit_rock.h"
 #include "query/query.h"
 #include "sim/access.h"
+#include "sim/node.h"
+#include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 
@@ -36,6 +38,19 @@ static double signed_value(double sign, double value)
     return sign > 0.0 ? value : 0.0 - value;
 }
 
+/* External damping that the node at the rig end has for half of its element, along and about the axis. */
+static void add_half_damping(const dmb_sim *sim, uint32_t element, double load[2])
+{
+    const dmb_scene *scene = sim->scene;
+    const double *v = sim->now.velocity + scene->layout.row[scene->element_node[element]];
+    const double half = 0.5 * scene->types[scene->element_type[element]].length;
+    double c[3];
+    if ((scene->features & DMB_FEATURE_DAMPING) == 0 || dmb_is_quasi_static(&sim->now)) return;
+    dmb_external_damping(sim, c);
+    load[0] -= half * c[1] * v[0];
+    load[1] -= half * c[2] * v[1];
+}
+
 /* For axial-torsional pipes dmb_query_section returns the mean over an element; here the value is that at the section
  * itself. */
 static int32_t section_of_rig_end(const asked_string *s, int32_t component, double sign, double *value)
@@ -45,6 +60,7 @@ static int32_t section_of_rig_end(const asked_string *s, int32_t component, doub
     if (pipe->kind == DMB_PIPE_AXIAL_TORSIONAL) {
         double load[2];
         dmb_axial_torsional_start_loads(s->sim->scene, &s->sim->now, pipe->element, load);
+        add_half_damping(s->sim, pipe->element, load);
         *value = signed_value(sign, load[component == DMB_RX]);
         return DMB_OK;
     }

@@ -11,6 +11,7 @@
 #include "model/section.h"
 #include "query/query.h"
 #include "sim/node.h"
+#include "sim/own_scene.h"
 #include "system/assemble/energy.h"
 
 /* ---- The element ------------------------------------------------------------------------------------------------- */
@@ -356,6 +357,29 @@ static void add_eccentric(host *h, const dmb_described_pipe *pipe)
     }
 }
 
+/* ---- External damping -------------------------------------------------------------------------------------------- */
+
+/* Each node has the damping of half of the element, which acts along all of it, as the velocities there. */
+static void add_external_damping(host *h)
+{
+    const dmb_scene *scene = h->sim->scene;
+    const dmb_configuration *now = &h->sim->now;
+    const double half = 0.5 * h->type->length;
+    double c[3];
+    if ((scene->features & DMB_FEATURE_DAMPING) == 0 || dmb_is_quasi_static(now)) return;
+    dmb_external_damping(h->sim, c);
+    for (uint32_t end = 0; end < 2; end++) {
+        const double sign = end ? -1.0 : 1.0;
+        double v[6], across[3];
+        dmb_node_vector(scene, now, h->node + end, now->velocity, v);
+        dmb_arm_velocity(sign * h->type->arm[end], v);
+        const double f[4] = {-half * c[1] * v[0], -half * c[0] * v[1], -half * c[0] * v[2], -half * c[2] * v[3]};
+        for (uint32_t i = 0; i < 4; i++) h->load[6 * end + i] += sign * f[i];
+        dmb_mat3_vec(end ? h->b.Q : h->a.Q, f, across);
+        dmb_vec3_axpy(-2.0 * sign, across, h->growth);
+    }
+}
+
 /* ---- Distributed loads ------------------------------------------------------------------------------------------- */
 
 /* x (r_A - r)/2 + x^2 L (t_A - t)/12: integral of the vector from the section to the points of the segment, over their
@@ -374,8 +398,8 @@ static void total_of(const host *h, const point_loads *loads, double T[6])
     add_moved(&h->b, h->load + 6, -1.0, h->b.r, T);
 }
 
-/* D of the segment up to x, about its section, for a uniform density plus the inertia, which increases by F1; the
- * remaining moment of the whole element is distributed uniformly. */
+/* D of the segment up to x, about its section, for a uniform density plus inertia and damping, which increase by F1;
+ * the remaining moment of the whole element is distributed uniformly. */
 static void distributed_to(const host *h, double x, const section_frame *at, const double T[6], double D[6])
 {
     const double *F1 = h->growth;
@@ -412,6 +436,7 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
     point_loads_of(&h, x, &at, &loads);
     if (loads.count > 0) subtract_nodes(&h, &loads);
     add_eccentric(&h, pipe);
+    add_external_damping(&h);
     if (loads.count == 0 && (x == 0.0 || x == 1.0)) {
         dmb_vec6_copy(h.load + (x > 0.0 ? 6 : 0), load);
         return;

@@ -130,16 +130,22 @@ static void set_density(dmb_own_scene *own, const dmb_scene *described, double d
     }
 }
 
-/* Lateral, axial and torsional damping, set by inputs or as described. */
-static void set_damping(const dmb_sim *sim)
+void dmb_external_damping(const dmb_sim *sim, double coefficients[3])
 {
-    const dmb_scene *scene = &sim->own->scene;
+    const dmb_scene *scene = sim->scene;
     const dmb_environment_def *e = &sim->model->environment;
-    double c[3] = {e->lateral_damping, e->axial_damping, e->torsional_damping};
+    coefficients[0] = e->lateral_damping, coefficients[1] = e->axial_damping, coefficients[2] = e->torsional_damping;
     for (uint32_t i = 0; i < scene->input_count; i++)
         if (scene->inputs[i].target >= DMB_TARGET_LATERAL_DAMPING &&
             scene->inputs[i].target <= DMB_TARGET_TORSIONAL_DAMPING)
-            c[scene->inputs[i].target - DMB_TARGET_LATERAL_DAMPING] = sim->input_value[i];
+            coefficients[scene->inputs[i].target - DMB_TARGET_LATERAL_DAMPING] = sim->input_value[i];
+}
+
+static void set_damping(const dmb_sim *sim)
+{
+    const dmb_scene *scene = &sim->own->scene;
+    double c[3];
+    dmb_external_damping(sim, c);
     for (uint32_t i = 0; i < scene->node_count; i++)
         dmb_node_damping_of(scene->damped_length + 3 * (size_t)i, c[1], c[2], c[0],
                             sim->own->node_damping + 5 * (size_t)i);

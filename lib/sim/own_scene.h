@@ -43,6 +43,8 @@ void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model);
 /* Updates the scene after changes of input_value or input_begin. O(number of nodes) with inputs of density, damping or
  * flow, otherwise O(number of drives, loads, bits and inputs). */
 void dmb_own_scene_update(dmb_sim *sim);
+/* External damping of pipe as it is now, by inputs or as described: lateral and axial [N s/m2], torsional [N s]. */
+void dmb_external_damping(const dmb_sim *sim, double coefficients[3]);
 /* Described value of the quantity of an input; NaN for a time function. */
 double dmb_described_setting(const dmb_sim *sim, uint32_t input);
 /* Time function replaced by an input in a compiled scene; DMB_NONE: none. */

@@ -594,13 +594,76 @@ static void tool_joints(void **state)
     }
 }
 
+/* ---- External damping -------------------------------------------------------------------------------------------- */
+
+static const double lateral_damping = 40.0, axial_damping = 30.0, torsional_damping = 0.5;
+
+/* A rod whose rig end moves at a constant speed, once it has settled. */
+static rod open_dragged(int32_t kind, uint32_t elements, int32_t start_free, const double speeds[6])
+{
+    rod r = open_rod(kind, elements, start_free, 1.0);
+    dmb_environment_def environment = dmb_environment_def_default();
+    dmb_sim_options options = dmb_sim_options_default();
+    environment.gravity[2] = 0.0;
+    environment.lateral_damping = lateral_damping;
+    environment.axial_damping = axial_damping;
+    environment.torsional_damping = torsional_damping;
+    must_model(&r.s, dmb_model_set_environment(r.s.model, &environment));
+    for (int32_t c = 0; c < 6; c++)
+        if (speeds[c] != 0.0)
+            (void)add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, c, add_constant(&r.s, speeds[c]));
+    options.spectral_radius = 0.0;
+    options.newton_tolerance = 1e-12;
+    (void)rig_start(&r.s, &options);
+    take_steps(&r.s, 1e-2, 600);
+    return r;
+}
+
+/* Fed and rotated: the damping beyond a section pulls and twists it. */
+static void damped_along_and_about(int32_t kind, uint32_t elements)
+{
+    const double speeds[6] = {0.3, 0.0, 0.0, 10.0, 0.0, 0.0}, L = rod_length;
+    rod r = open_dragged(kind, elements, DMB_FREE_X | DMB_FREE_RX, speeds);
+    const double pull = axial_damping * 0.3, twist = torsional_damping * 10.0;
+    for (double f = 0.05; f < 1.0 && kind == DMB_PIPE_FLEXIBLE; f += 0.1) {
+        check_close("axial force by damping", section_of(&r, f, 0), -pull * (1.0 - f) * L, 1e-6 * pull);
+        check_close("torque by damping", section_of(&r, f, 3), -twist * (1.0 - f) * L, 1e-6 * twist);
+    }
+    check_relative("hook load", dmb_sim_value(r.s.sim, DMB_OUTPUT_HOOK_LOAD, place_of(&r, 0.0)), -pull * L, 1e-6);
+    check_relative("torque of the rig", dmb_sim_value(r.s.sim, DMB_OUTPUT_ROTATION_TORQUE, place_of(&r, 0.0)),
+                   twist * L, 1e-6);
+    rig_close(&r.s);
+}
+
+static void damped_across(uint32_t elements)
+{
+    const double speeds[6] = {0.0, 1e-3, 0.0, 0.0, 0.0, 0.0}, q = lateral_damping * 1e-3;
+    rod r = open_dragged(DMB_PIPE_FLEXIBLE, elements, DMB_FREE_Y, speeds);
+    for (double f = 0.05; f < 1.0; f += 0.1) {
+        const double beyond = (1.0 - f) * rod_length;
+        check_close("shear force by damping", section_of(&r, f, 1), -q * beyond, 1e-6 * q);
+        check_close("bending moment by damping", section_of(&r, f, 5), -0.5 * q * beyond * beyond, 1e-6 * q);
+    }
+    rig_close(&r.s);
+}
+
+static void external_damping_is_distributed(void **state)
+{
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2) {
+        damped_along_and_about(DMB_PIPE_FLEXIBLE, elements);
+        damped_along_and_about(DMB_PIPE_AXIAL_TORSIONAL, elements);
+        damped_across(elements);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(assumed_slip),   cmocka_unit_test(forces_inside),
         cmocka_unit_test(contact_along),  cmocka_unit_test(contact_in_a_turning_hole),
         cmocka_unit_test(eccentric_mass), cmocka_unit_test(falling),
-        cmocka_unit_test(tool_joints),
+        cmocka_unit_test(tool_joints),    cmocka_unit_test(external_damping_is_distributed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

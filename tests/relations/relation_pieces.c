@@ -1,8 +1,12 @@
 /* Newton's law of pieces of a string: between two sections of an element its weight and the loads inside are all that
- * acts, at rest and at rest with an assumed slip, whatever the number of elements. */
+ * acts, at rest and at rest with an assumed slip, whatever the number of elements. In motion the inertia of a short
+ * piece about the border of two elements, by its acceleration, acts besides. */
 #include "relations.h"
 
-enum { TOPIC_PIECES = TOPIC_OF_RELATION + 70 };
+enum { TOPIC_PIECES = TOPIC_OF_RELATION + 70, TOPIC_BORDERS };
+
+/* [-] Half of a piece about the border of two elements, of an element. */
+#define BORDER 1e-8
 
 static double norm(const double v[3])
 {
@@ -122,3 +126,65 @@ const relation relation_pieces = {
     0.4,
     check_pieces,
     0.0};
+
+/* [N] Weight and inertia of a piece about its middle. */
+static void body_force(const scene *s, const built *b, dmb_place middle, double mass, double sum[3], double *size)
+{
+    dmb_motion motion = dmb_motion_default();
+    (void)dmb_query_motion(b->sim, middle, &motion);
+    for (int i = 0; i < 3; ++i) sum[i] = mass * (s->environment.gravity[i] - motion.acceleration[i]);
+    *size += norm(sum);
+}
+
+static void check_border(trial *t, const built *b, const part_ref *at, uint32_t elements)
+{
+    const dmb_pipe_def *const pipe = &t->s.string[at->index].pipe[at->pipe];
+    const double part = BORDER / elements;
+    double sum[3], size = 0.0, floor[ANSWER_GROUPS];
+    part_ref from = *at, to = *at;
+    from.fraction -= part, to.fraction += part;
+    body_force(&t->s, b, built_place(b, *at), 2.0 * part * pipe->length * weight_of(pipe), sum, &size);
+    if (loads_between(&t->s, b, &from, to.fraction, sum, &size) > 0) return;
+    section_force(b, built_place(b, from), -1.0, sum, &size);
+    section_force(b, built_place(b, to), 1.0, sum, &size);
+    rounding_of(&t->s, t->s.span + 10.0, 1.0, floor);
+    hold(t, "forces on a piece about the border of two elements", norm(sum),
+         1e-6 * size + 1000.0 * floor[ANSWER_FORCE]);
+}
+
+static void check_borders_of(trial *t, const built *b)
+{
+    for (uint32_t s = 0; s < t->s.strings; ++s)
+        for (uint32_t p = 0; p < t->s.string[s].pipes; ++p) {
+            const dmb_pipe_def *const pipe = &t->s.string[s].pipe[p];
+            const double body = 1.0 - pipe->joint_length / pipe->length;
+            if (pipe->kind != DMB_PIPE_FLEXIBLE) continue;
+            for (uint32_t e = 1; e < pipe->elements; ++e) {
+                const part_ref at = {PART_STRING, s, p, body * e / pipe->elements};
+                check_border(t, b, &at, pipe->elements);
+            }
+        }
+}
+
+static void check_borders(trial *t)
+{
+    built b;
+    stream n = stream_of(t->s.seed, t->s.number, TOPIC_BORDERS);
+    const uint32_t steps = draw_count(&n, 1, 20);
+    prepare(t, &n);
+    int32_t status = scene_open(&t->s, 0, NULL, &b);
+    for (uint32_t i = 0; i < steps && status >= 0; ++i) status = dmb_sim_step(b.sim, t->s.step, NULL);
+    if (status < 0)
+        refused(t, status, b.sim ? dmb_sim_message(b.sim) : b.message);
+    else
+        check_borders_of(t, &b);
+    scene_close(&b);
+}
+
+const relation relation_borders = {"borders",
+                                   "section forces beside the borders of elements in motion",
+                                   {FAMILY_LINE | FAMILY_FREE, WISH_FLEXIBLE, 4},
+                                   60,
+                                   0.4,
+                                   check_borders,
+                                   0.0};
