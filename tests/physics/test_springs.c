@@ -368,6 +368,33 @@ static void poses_off_a_place_move_with_it(void **state)
     rig_close(&s);
 }
 
+/* A ball on a stiff damped spring far from resolved comes to rest, where its forces are rounding, and stays there. */
+static void decayed_oscillations_stay_at_rest(void **state)
+{
+    static const double cases[][5] = {{1e4, 0.01, 0.0, 1e-2, 1.0}, /* w, damping ratio, spectral radius, step, length */
+                                      {1e4, 0.1, 0.5, 1e-2, 1000.0},
+                                      {1e5, 0.01, 0.5, 1e-2, 1.0},
+                                      {1e5, 0.1, 0.5, 1e-3, 1.0},
+                                      {1e6, 0.01, 0.8, 1e-3, 1.0}};
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        const double *of = cases[i];
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        const dmb_place ball = dmb_station(add_ball(&s, 1e-4, 0.0), 0, 0.0);
+        dmb_spring_def def = spring_between(nowhere(), ball, of[0] * of[0], 2.0 * of[1] * of[0]);
+        def.offset_a[0] = -of[4];
+        def.free_length = of[4];
+        (void)add_spring(&s, &def);
+        dmb_sim_options options = dmb_sim_options_default();
+        options.spectral_radius = of[2];
+        (void)rig_start(&s, &options);
+        for (int n = 0; n < 400; n++) must(&s, dmb_sim_step(s.sim, of[3], NULL));
+        check_below("place at the end [m]", fabs(pose_at(&s, ball).position[0]), 1e-12 * of[4]);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,6 +407,7 @@ int main(void)
         cmocka_unit_test(a_load_inside_an_element_is_one_on_a_node),
         cmocka_unit_test(a_table_is_met_and_stores_its_integral),
         cmocka_unit_test(poses_off_a_place_move_with_it),
+        cmocka_unit_test(decayed_oscillations_stay_at_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
