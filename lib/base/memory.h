@@ -10,25 +10,19 @@
 
 /* Sums and products of sizes with overflow detection. Each returns true and writes *out, or returns false and leaves
  * *out unchanged. */
+static inline bool dmb_checked_add_size(size_t a, size_t b, size_t *out)
+{
+    if (b > SIZE_MAX - a) return false;
+    *out = a + b;
+    return true;
+}
 
-#define DMB_DEFINE_CHECKED(suffix, type, maximum)                          \
-    static inline bool dmb_checked_add_##suffix(type a, type b, type *out) \
-    {                                                                      \
-        if (b > (maximum)-a) return false;                                 \
-        *out = a + b;                                                      \
-        return true;                                                       \
-    }                                                                      \
-    static inline bool dmb_checked_mul_##suffix(type a, type b, type *out) \
-    {                                                                      \
-        if (a != 0 && b > (maximum) / a) return false;                     \
-        *out = a * b;                                                      \
-        return true;                                                       \
-    }
-
-DMB_DEFINE_CHECKED(size, size_t, SIZE_MAX)
-DMB_DEFINE_CHECKED(u32, uint32_t, UINT32_MAX)
-DMB_DEFINE_CHECKED(u64, uint64_t, UINT64_MAX)
-#undef DMB_DEFINE_CHECKED
+static inline bool dmb_checked_mul_size(size_t a, size_t b, size_t *out)
+{
+    if (a != 0 && b > SIZE_MAX / a) return false;
+    *out = a * b;
+    return true;
+}
 
 /* Rounds size up to a multiple of alignment, a power of two. */
 static inline bool dmb_checked_round_up(size_t size, size_t alignment, size_t *out)

@@ -113,9 +113,9 @@ static inline const double *pivot_row_of(const double *B, uint32_t stride, const
 #define DMB_STRETCH_GAP 3       /* largest number of zeros within a stretch */
 
 /* Stretch from .. to - 1 of columns. */
-typedef struct stretch {
+typedef struct column_range {
     size_t from, to;
-} stretch;
+} column_range;
 
 static inline size_t block_size(size_t columns)
 {
@@ -146,12 +146,12 @@ static inline uint64_t find_blocks(size_t n, const double *b)
 }
 
 /* Stretches of nonzero entries of a row, at most DMB_STRETCHES; returns their number. */
-static inline size_t find_stretches(size_t n, const double *b, uint64_t blocks, stretch *stretches)
+static inline size_t find_stretches(size_t n, const double *b, uint64_t blocks, column_range *stretches)
 {
     const size_t size = block_size(n);
     size_t count = 0;
     if (n <= DMB_STRETCH_DENSE) {
-        stretches[0] = (stretch){0, n};
+        stretches[0] = (column_range){0, n};
         return 1;
     }
     for (size_t from = 0; from < n && blocks != 0; from += size, blocks >>= 1) {
@@ -177,7 +177,7 @@ static inline double weighted_dot(size_t n, const double *a, const double *b, co
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static inline double dot_in_stretches(size_t count, const stretch *stretches, const double *a, const double *b,
+static inline double dot_in_stretches(size_t count, const column_range *stretches, const double *a, const double *b,
                                       const double *weight)
 {
     double sum = 0.0;

@@ -99,7 +99,7 @@ static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size
     const double *b = pivot_row_of(B, stride, p, k);
     const uint64_t blocks = blocks_of(n, gram, k);
     double *row = gram + n * k;
-    stretch stretches[DMB_STRETCHES];
+    column_range stretches[DMB_STRETCHES];
     const size_t count = find_stretches(p->columns, b, blocks, stretches);
     const double m = dot_in_stretches(count, stretches, b, b, weight), pivot = m + row[k];
     const bool kept = !(near_redundant > 0.0 && pivot < near_redundant * m);
@@ -137,7 +137,7 @@ void dmb_partition_drop_near_redundant(const dmb_jacobian *jacobian, const dmb_p
     for (size_t k = 0; k < n && !near_redundant; k++) {
         const double *b = pivot_row_of(jacobian->rows, jacobian->stride, partition, k);
         const double root = gram[n * k + k];
-        stretch stretches[DMB_STRETCHES];
+        column_range stretches[DMB_STRETCHES];
         const size_t count = find_stretches(partition->columns, b, blocks_of(n, gram, k), stretches);
         near_redundant =
             root * root * dot_in_stretches(count, stretches, b, b, jacobian->weight) * DMB_NEAR_REDUNDANT_PIVOT > 1.0;
