@@ -1178,16 +1178,15 @@ public:
     DRILLMBD_NODISCARD std::vector<double> profile(span<const std::int32_t> quantities, span<const double> distance,
                                                    string_id string = string_id()) const
     {
-        std::vector<double> values(quantities.size() * distance.size());
-        dmb_profile request = dmb_profile_default();
-        request.string = string;
-        request.station_count = distance.count();
-        request.distance = distance.data();
-        request.quantity_count = quantities.count();
-        request.quantities = quantities.data();
-        request.values = values.data();
-        check(dmb_query_profile(handle_, &request));
-        return values;
+        return profile_at(quantities, distance.count(), distance.data(), string);
+    }
+    // The same at a number of stations spread evenly from the rig end to the far end. A template, so that {2.0} is a
+    // distance.
+    template <typename Count, typename = typename std::enable_if<std::is_integral<Count>::value>::type>
+    DRILLMBD_NODISCARD std::vector<double> profile(span<const std::int32_t> quantities, Count stations,
+                                                   string_id string = string_id()) const
+    {
+        return profile_at(quantities, static_cast<std::uint32_t>(stations), nullptr, string);
     }
     DRILLMBD_NODISCARD double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
     DRILLMBD_NODISCARD dmb_contact contact(std::uint32_t site) const
@@ -1297,6 +1296,20 @@ public:
     }
 
 private:
+    std::vector<double> profile_at(span<const std::int32_t> quantities, std::uint32_t stations, const double *distance,
+                                   string_id string) const
+    {
+        std::vector<double> values(quantities.size() * stations);
+        dmb_profile request = dmb_profile_default();
+        request.string = string;
+        request.station_count = stations;
+        request.distance = distance;
+        request.quantity_count = quantities.count();
+        request.quantities = quantities.data();
+        request.values = values.data();
+        check(dmb_query_profile(handle_, &request));
+        return values;
+    }
     // A function object as a C function, while it lives; its exceptions must not unwind through C.
     template <typename Progress>
     struct teller {

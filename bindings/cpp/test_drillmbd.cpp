@@ -115,6 +115,9 @@ void scene_from_end_to_end()
     EXPECT(thrown_by([&] { (void)sim.output(DMB_OUTPUT_JOINT_STATE); }) == DMB_ERR_ID);
     EXPECT(std::isfinite(sim.torque_drag({dmb_operation_default()}).at(0).hook_load));
     EXPECT(std::isfinite(sim.profile({DMB_PROFILE_TORQUE}, {0.5, 1.5}).at(1)));
+    const std::vector<double> spread = sim.profile({DMB_PROFILE_DISTANCE, DMB_PROFILE_TORQUE}, 3, made.string);
+    EXPECT(spread.size() == 6 && spread.at(0) == 0.0 && std::abs(spread.at(4) - 2.0 * spread.at(2)) < 1e-12);
+    EXPECT(spread.at(3) == sim.profile({DMB_PROFILE_TORQUE}, {spread.at(2)}).at(0));
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));
     EXPECT(sim.contact(0).number == 0);
     EXPECT(sim.contact_total().normal_force >= 0.0);

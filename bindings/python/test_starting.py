@@ -144,6 +144,8 @@ class StartingTest(unittest.TestCase):
             self.assertNotIn(" : ", text)  # "0 (default): none" is read as "0: none"
             self.assertNotIn("default nan", text)
             listed = [row[0] for row in keys.listed(table)]
+            for key, _, _, meaning in keys.listed(table):  # in words of scene files, not of C
+                self.assertNotRegex(meaning, r"\bdmb_|\.h\b|\b[A-Z]{2,}_[A-Z_]+|callback$", (table, key))
             self.assertEqual(listed[:len(usual.split())], usual.split())
             self.assertEqual(len(listed), len(set(listed)))
         self.assertRegex(said("keys", "string.pipes")[1], r"outer_diameter +\[m\], default 0.073 m")

@@ -194,7 +194,7 @@ static void pushed_strings(const sink *to)
             if (is_held_along(scene, string)) continue;
             dmb_message_set(&text,
                             "%s: no drive along it bears the load on its bit, which pushes it out of the hole; add a "
-                            "drive with component = \"x\"",
+                            "drive with component = x",
                             dmb_string_text(scene, i, &name));
             say(to, &text);
         }

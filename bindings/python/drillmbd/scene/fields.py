@@ -39,6 +39,23 @@ ABOUT_OF = {("DriveDef", "time_function"): 'required: the name of a time functio
                                         "Required for the set point of a motion drive: largest acceleration"}
 
 
+#: Names of C in the texts of the headers, and what a scene file has for them.
+WORDS_OF = {"not there without FEATURE_": "not there without the feature FEATURE_", "of CONTACT_": "of contact = CONTACT_",
+            "of SCALE_": "of scale = SCALE_", "X .. RZ": "x .. RZ", "X (feed": "x (feed", "or _END:": 'or "end":',
+            "default NOT_GIVEN": "left out: that of [hole]",
+            " (dmb_query_flow)": "", "dmb_statistics.bounces counts them": "a run notes them", ", for dmb_query_hole": "",
+            "; by dmb_motor_drive": "", ", dmb_sim_set_drive and limits": " and limits", "NOT_GIVEN": "left out",
+            "dmb_static_options": "[static]", "dmb_modes_options": "[modes]", "dmb_response_options": "[response]",
+            "local error in dmb_sim_advance": "local error of a step that the library chooses",
+            "shortest step of dmb_sim_advance and": "shortest step that the library chooses, and",
+            "accepted steps in one dmb_sim_advance, then NOTE_STOPPED":
+                "accepted steps in one call of the library, after which a run continues",
+            "dmb_sim_step does one step": "each step of a run with `step` is one",
+            "and accepts a finite result with NOTE_WORK_LIMITED": "that accepts a finite result with a note",
+            "dmb_sim_create": "the start of a run", "More is ERR_GEOMETRY": "More is refused",
+            " and dmb_model_find_pipes": "", "returned by dmb_query_hole": "for results"}
+
+
 @dataclass(frozen=True)
 class Field:
     """One key of a table."""
@@ -80,8 +97,33 @@ def fields_of(struct: Any) -> dict[str, Field]:
         if name not in LEFT_OUT and (struct.__name__, name) not in LEFT_OUT_OF and "reserved" not in name and not _is_pointer(kind):
             unit, about = struct.field_docs.get(name, ("", ""))
             about = ABOUT_OF.get((struct.__name__, name), about)
-            found[name] = replace(_field(name, kind, unit, about), bound=struct.bounds.get(name))
+            found[name] = replace(_field(name, kind, unit, about), bound=struct.bounds.get(name), about=in_scene(about))
     return found
+
+
+def in_scene(text: str) -> str:
+    """A text of the headers with the words of scene files: per-revolution for PER_REVOLUTION, "damping" for
+    FEATURE_DAMPING."""
+    for name, words in WORDS_OF.items():
+        text = text.replace(name, words)
+    text = re.sub(r"(mask of )?\b[A-Z][A-Z_]*_\.\.\.[,;:]? ?", "", text)  # a schema lists the words
+    return re.sub(r"\b[A-Z][A-Z0-9_]+\b", lambda match: _word_in_scene(match[0]), text)
+
+
+def _word_in_scene(name: str) -> str:
+    member = getattr(enums, name, None)
+    if isinstance(member, enums.Component):
+        return word_of(member)
+    if isinstance(member, (IntEnum, IntFlag)):
+        return f'"{word_of(member)}"'
+    return name.lower().replace("_", "-") if name in _members() else name
+
+
+@functools.lru_cache(maxsize=None)
+def _members() -> set[str]:
+    """Names of the members of enumerations, as the headers have them beside the field that they are values of."""
+    return {name for kind in vars(enums).values() if isinstance(kind, type) and issubclass(kind, IntEnum) and kind is not enums.Status
+            for name in kind.__members__}
 
 
 def _is_pointer(kind: Any) -> bool:

@@ -70,7 +70,7 @@ def _default(table: str, field: Field) -> str:
         return ""
     if field.enum is not None and field.kind == "enum":
         return next((word for word, number in words_of(field.enum).items() if number == value), "")
-    if isinstance(value, float) and not abs(value) < NO_BOUND:
+    if isinstance(value, float) and (not abs(value) < NO_BOUND or value == -1.0 and "left out" in field.about):
         return ""
     if hasattr(value, "__len__"):
         return "[" + ", ".join(f"{one:g}" for one in value) + "]" if len(value) <= 6 else ""
@@ -80,9 +80,10 @@ def _default(table: str, field: Field) -> str:
 
 def _meaning(field: Field) -> str:
     if field.kind == "enum":
-        return "one of " + ", ".join(words_of(field.enum))
-    text = re.sub(r"(?:;|,)? ?default[^;]*|\(default\)|; shape \([^)]*\)|, shape \([^)]*\)|shape \([^)]*\)", "",
-                  field.about)
+        return "one of " + ", ".join(word for word in words_of(field.enum) if word != "callback")
+    if field.kind == "flags":
+        return "array of " + ", ".join(words_of(field.enum))
+    text = re.sub(r"(?:;|,)? ?default(?:[^;.]|\.(?! ))*|\(default\)|(?:;|,)? ?shape \([^)]*\)", "", field.about)
     text = re.sub(r"\s+", " ", text).replace(" : ", ": ")  # "0 (default): none" without "(default)"
     return text.replace("{0, 0}: ", "left out: ").strip(" ;,")
 
