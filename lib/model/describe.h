@@ -40,6 +40,8 @@ void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);
 /* Bounds in force: the narrower of the input's own and those of its target. */
 double dmb_input_low(const dmb_input_def *def);
 double dmb_input_high(const dmb_input_def *def);
+/* Unit of its target. */
+const char *dmb_input_unit(const dmb_model *model, const dmb_input_def *def);
 /* 1: it stands in the place of a time function, and may be on its way. */
 int dmb_input_is_time_function(int32_t target);
 

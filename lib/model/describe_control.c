@@ -46,7 +46,7 @@ static const dmb_drive_def *drive_of(const dmb_model *model, const dmb_input_def
     return i == DMB_NONE ? NULL : DMB_LIST_AT(const dmb_drive_def, model->drives, i);
 }
 
-static const char *unit_of(const dmb_model *model, const dmb_input_def *def)
+const char *dmb_input_unit(const dmb_model *model, const dmb_input_def *def)
 {
     const dmb_drive_def *drive = drive_of(model, def);
     const int about = drive != NULL && drive->component >= DMB_RX;
@@ -175,7 +175,7 @@ int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_input_in
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "model", DMB_ERR_HANDLE);
     if (index >= model->inputs.count) return dmb_model_failed(model, "model", DMB_ERR_ID);
     const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, model->inputs, index);
-    const char *unit = unit_of(model, def);
+    const char *unit = dmb_input_unit(model, def);
     answer.target = def->target;
     answer.input = dmb_model_id(model, DMB_PART_INPUT, index);
     answer.part = def->part;

@@ -3,6 +3,7 @@
 
 #include "base/failure.h"
 #include "drillmbd/ask.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"
 #include "query/query.h"
@@ -25,12 +26,35 @@ static const char *choose(const char *unit, int about)
     return unit;
 }
 
+/* The unit over a second, of the units of inputs. */
+static const char *per_second(const char *unit)
+{
+    static const char *const pairs[][2] = {{"-", "1/s"},       {"m/s", "m/s2"},    {"rad/s", "rad/s2"},
+                                           {"N", "N/s"},       {"N m", "N m/s"},   {"N s/m", "N/m"},
+                                           {"N m s", "N m"},   {"N/m", "N/(m s)"}, {"kg/m3", "kg/(m3 s)"},
+                                           {"N s/m2", "N/m2"}, {"N s", "N"},       {"m3/s", "m3/s2"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++)
+        if (strcmp(unit, pairs[i][0]) == 0) return pairs[i][1];
+    return "unit of the input/s";
+}
+
+/* The unit of an output of an input of the model, else NULL. */
+static const char *unit_at_input(const dmb_model *model, const dmb_output *output)
+{
+    const uint32_t i = model != NULL ? dmb_model_part_index(model, output->place.part, DMB_PART_INPUT) : DMB_NONE;
+    if (i == DMB_NONE) return NULL;
+    const char *unit = dmb_input_unit(model, DMB_LIST_AT(const dmb_input_def, model->inputs, i));
+    return output->quantity == DMB_OUTPUT_INPUT_RATE ? per_second(unit) : unit;
+}
+
 const char *dmb_output_unit(const dmb_model *model, const dmb_output *output)
 {
     const dmb_output_entry *entry = dmb_output_name_of(output->quantity);
     const dmb_drive_def *drive =
         entry != NULL && entry->place == DMB_AT_DRIVE ? drive_of(model, output->place.part) : NULL;
     if (entry == NULL) return "-";
+    const char *set = entry->place == DMB_AT_INPUT ? unit_at_input(model, output) : NULL;
+    if (set != NULL) return set;
     if (drive == NULL) return entry->unit;
     if (output->quantity == DMB_OUTPUT_DRIVE_TARGET)
         return choose(drive->kind == DMB_DRIVE_LOAD ? "N or N m" : "m/s or rad/s", drive->component >= DMB_RX);

@@ -289,7 +289,7 @@ const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 /* "drive_force of drive table", "axial_force of string main pipe 3 at 0.5"; a part without a name has its number, as
  * all have where model is NULL. */
 const char *dmb_output_words(const dmb_model *model, const dmb_output *output, dmb_message *text);
-/* Its unit: where the table has two, that of the part's component. */
+/* Its unit: where the table has two, that of the part's component; of inputs, that of the target. */
 const char *dmb_output_unit(const dmb_model *model, const dmb_output *output);
 /* DMB_ERR_VALUE, with a message about output number i: its quantity is none. */
 int32_t dmb_output_known(const dmb_output *output, uint32_t i, dmb_message *message);

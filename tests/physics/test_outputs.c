@@ -542,6 +542,50 @@ static void in_tables_after_a_restore(void **state)
     destroy(&r);
 }
 
+/* The unit of an input is that of its target, of its rate over a second; without a model it is not known. */
+static void units_of_inputs(void **state)
+{
+    (void)state;
+    static const struct {
+        int32_t target, motion;
+        const char *unit, *rate;
+    } cases[] = {{DMB_TARGET_SET_POINT, 1, "rad/s", "rad/s2"},
+                 {DMB_TARGET_SET_POINT, 0, "N m", "N m/s"},
+                 {DMB_TARGET_FRICTION, 0, "-", "1/s"},
+                 {DMB_TARGET_FLUID_DENSITY, 0, "kg/m3", "kg/(m3 s)"},
+                 {DMB_TARGET_TORSIONAL_DAMPING, 0, "N s", "N"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        rig s;
+        char text[128], wanted[128];
+        dmb_input_def input = dmb_input_def_default();
+        const dmb_wall_def wall = s1_hole();
+        const dmb_pipe_def pipe = s1_pipe();
+        rig_open(&s, 0.0, 0.0, -9.81);
+        (void)add_wall(&s, &wall);
+        const dmb_id string = add_pipes(&s, &pipe, 2);
+        memcpy(input.name, "set", 4);
+        input.target = cases[i].target;
+        if (input.target == DMB_TARGET_SET_POINT)
+            input.part = add_simple_drive(&s, cases[i].motion ? DMB_DRIVE_MOTION : DMB_DRIVE_LOAD, string, DMB_RX,
+                                          add_constant(&s, 1.0));
+        if (input.target == DMB_TARGET_SET_POINT) input.rate_limit = 1.0;
+        dmb_id id;
+        must_model(&s, dmb_model_add_input(s.model, &input, &id));
+        (void)rig_start(&s, NULL);
+        dmb_output output = {dmb_station(id, 0, 0.0), DMB_OUTPUT_INPUT_PRESENT, 0};
+        snprintf(wanted, sizeof wanted, "input_present of input set [%s]", cases[i].unit);
+        must(&s, dmb_output_text(s.sim, &output, text, sizeof text));
+        assert_string_equal(text, wanted);
+        output.quantity = DMB_OUTPUT_INPUT_RATE;
+        snprintf(wanted, sizeof wanted, "input_rate of input set [%s]", cases[i].rate);
+        must(&s, dmb_output_text(s.sim, &output, text, sizeof text));
+        assert_string_equal(text, wanted);
+        must(&s, dmb_output_text(NULL, &output, text, sizeof text));
+        assert_string_equal(text, "input_rate of input 0 [unit of the input/s]");
+        rig_close(&s);
+    }
+}
+
 /* The text of an output is its name, its part by name, its place and the unit that it has there; a head of a table is
  * in quotes where the name of a part has a comma or a quote. */
 static void texts(void **state)
@@ -638,6 +682,7 @@ static void in_windows_and_fatigue_after_a_restore(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_of_inputs),
         cmocka_unit_test(texts),
         cmocka_unit_test(each_is_its_query),
         cmocka_unit_test(names_are_numbers),
