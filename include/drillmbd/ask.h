@@ -176,7 +176,7 @@ typedef struct dmb_hole_point {
 } dmb_hole_point;
 DMB_SIZED_STRUCT(dmb_hole_point)
 /* The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; DMB_ERR_ORDER
- * before, DMB_ERR_UNSUPPORTED without a hole. O(log stations). */
+ * before, DMB_ERR_UNSUPPORTED without a hole, _NOT_FINITE. O(log stations). */
 DMB_API int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point);
 /* The same with the diameter that the cutters have left up to now (cut_spacing of dmb_wall_def). */
 DMB_API int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point);
@@ -298,7 +298,7 @@ DMB_API int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const dmb_s
 /* VTK XML poly-data for ParaView: the strings as lines with fields (displacement, velocity, diameter, axial force, torque,
  * bending moment, normal force), `per_element` points an element (1 .. 64). DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path);
-/* The hole as a tube of `around` facets (3 .. 360) with a circle each `spacing` [m] from depth0 to depth1 [m]. */
+/* The hole as a tube of `around` facets (3 .. 360), circles each `spacing` [m]; errors as dmb_query_hole, DMB_ERR_TOO_LARGE. */
 DMB_API int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
                                    const char *path);
 
@@ -462,7 +462,7 @@ DMB_SIZED_STRUCT(dmb_window_result)
 DMB_API int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *options, const dmb_output *outputs,
                                   uint32_t output_count, dmb_window **window);
 /* Takes a sample; call it after each step. A second one at the same time is ignored; DMB_ERR_ORDER for an earlier time:
- * dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs). */
+ * dmb_window_reset; _NOT_FINITE (an output). The sim may be another one of the same model. Allocates nothing. O(outputs). */
 DMB_API int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim);
 /* O(slots). DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such output). */
 DMB_API int32_t dmb_window_get(const dmb_window *window, uint32_t output, dmb_window_result *result);

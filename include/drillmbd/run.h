@@ -44,14 +44,14 @@ typedef struct dmb_sim_options {
         rounding of described places. More is DMB_ERR_GEOMETRY */
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
-/* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled). */
+/* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), _TOO_LARGE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed, which holds the model until it is destroyed. options may be NULL. To
  * close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies as far as their supports
  * leave them free, and only then pipes are strained (assembly_energy). DMB_NOTE_PROJECTED: initial velocities did not fit the
  * allowed motion, or joints were closed; dmb_sim_message states by how much. Errors, in dmb_model_message: DMB_ERR_ORDER (model
- * not compiled), _NO_MEMORY, _CALLBACK, _ROTATION, _SINGULAR, _NO_CONVERGENCE, _UNSUPPORTED, _GEOMETRY (joints that cannot be
- * closed, or only by more than assembly_energy); *sim is NULL then. O(elements). */
+ * not compiled), _NO_MEMORY, _TOO_LARGE, _CALLBACK, _ROTATION, _SINGULAR, _NO_CONVERGENCE, _UNSUPPORTED, _GEOMETRY (joints that
+ * cannot be closed, or only by more than assembly_energy); *sim is NULL then. O(elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. Errors as
  * dmb_sim_create; DMB_ERR_TOO_LARGE. */

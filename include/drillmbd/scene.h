@@ -7,9 +7,9 @@ typedef struct dmb_model dmb_model; /* a scene: described, then compiled */
 
 /* Models belong to one thread until they are compiled. Errors of every function of this header that has a model: DMB_ERR_NULL,
  * _HANDLE, _STRUCT_SIZE, _ORDER (of a compiled model, but for its questions; within a call on it); of those that add or set parts
- * also _VALUE, _NOT_FINITE, _ID, _TOO_LARGE, _NO_MEMORY: nothing is added then, the id is left as it was, and the message names
- * part, field, value and bounds. They copy the definition and all it points to; the id may be NULL. Parts may be added in any
- * order in which the ids exist that they name. Further errors are listed at each function. */
+ * also _VALUE, _NOT_FINITE, _ID, _TOO_LARGE, _UNSUPPORTED, _NO_MEMORY: nothing is added then, the id is left as it was, and the
+ * message names part, field, value and bounds. They copy the definition and all it points to; the id may be NULL. Parts may be
+ * added in any order in which the ids exist that they name. Further errors are listed at each function. */
 
 typedef struct dmb_model_options {
     uint32_t struct_size, reserved;

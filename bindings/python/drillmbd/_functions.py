@@ -430,7 +430,7 @@ FUNCTION_DOCS = {
     "dmb_query_flow":
         "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for pressure_stretch of mud at rest. Kinetic heads, steps between diameters, bodies, bits and stabilisers in the annulus and the motion of the string are neglected. The annulus has the flow_eccentricity wherever the string lies. O(elements).",
     "dmb_query_hole":
-        "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
+        "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole, _NOT_FINITE. O(log stations).",
     "dmb_query_hole_now":
         "The same with the diameter that the cutters have left up to now (cut_spacing of dmb_wall_def).",
     "dmb_query_kinetic_energy":
@@ -476,13 +476,13 @@ FUNCTION_DOCS = {
     "dmb_sensitivity_rows":
         "Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many there are; with both arrays NULL that is all. Errors: _ORDER as above.",
     "dmb_sensitivity_step":
-        "dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: the sim was moved by other calls; _SINGULAR: the iteration matrix at the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of four parameters, one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places and callers' forces.",
+        "dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: other calls moved the sim; _UNSUPPORTED: a stuck place is released; _SINGULAR: the matrix at the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of four parameters, one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places, callers' forces.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors of steps add up over a run, to some thousand times the tolerances in 10 s: repeat it with a tenth of the tolerances to estimate the error at its end. NOTE_TOLERANCE where a step of step_min was too long for them; before that NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one.",
     "dmb_sim_advance_to_event":
         "As dmb_sim_advance, but ends at the first event: NOTE_EVENT, dmb_sim_message names those reported. One that is beyond its level at the start is reported when it has come back and crosses again; a `hold` continues from call to call. Costs a copy of the state a step, some six steps a crossing. Notes and errors as dmb_sim_advance; ERR_VALUE: no events.",
     "dmb_sim_create":
-        "Makes a sim at time 0 in the described pose and speed, which holds the model until it is destroyed. options may be NULL. To close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies as far as their supports leave them free, and only then pipes are strained (assembly_energy). NOTE_PROJECTED: initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message states by how much. Errors, in dmb_model_message: ERR_ORDER (model not compiled), _NO_MEMORY, _CALLBACK, _ROTATION, _SINGULAR, _NO_CONVERGENCE, _UNSUPPORTED, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. O(elements).",
+        "Makes a sim at time 0 in the described pose and speed, which holds the model until it is destroyed. options may be NULL. To close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies as far as their supports leave them free, and only then pipes are strained (assembly_energy). NOTE_PROJECTED: initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message states by how much. Errors, in dmb_model_message: ERR_ORDER (model not compiled), _NO_MEMORY, _TOO_LARGE, _CALLBACK, _ROTATION, _SINGULAR, _NO_CONVERGENCE, _UNSUPPORTED, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. O(elements).",
     "dmb_sim_create_in":
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. Errors as dmb_sim_create; ERR_TOO_LARGE.",
     "dmb_sim_destroy":
@@ -490,7 +490,7 @@ FUNCTION_DOCS = {
     "dmb_sim_hash":
         "FNV-1a hash of all that changes; equal states give equal hashes on one build.",
     "dmb_sim_memory_size":
-        "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled).",
+        "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled), _TOO_LARGE.",
     "dmb_sim_message":
         "Message of the last call on this sim that failed or has a note; of queries, of this thread. Never NULL; until the next call.",
     "dmb_sim_record_inputs":
@@ -550,9 +550,9 @@ FUNCTION_DOCS = {
     "dmb_window_reset":
         "Forgets all samples.",
     "dmb_window_take":
-        "Takes a sample; call it after each step. A second one at the same time is ignored; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs).",
+        "Takes a sample; call it after each step. A second one at the same time is ignored; ERR_ORDER for an earlier time: dmb_window_reset; _NOT_FINITE (an output). The sim may be another one of the same model. Allocates nothing. O(outputs).",
     "dmb_write_vtk_hole":
-        "The hole as a tube of `around` facets (3 .. 360) with a circle each `spacing` [m] from depth0 to depth1 [m].",
+        "The hole as a tube of `around` facets (3 .. 360), circles each `spacing` [m]; errors as dmb_query_hole, ERR_TOO_LARGE.",
     "dmb_write_vtk_mode":
         "A frame of its animation for ParaView: the strings displaced by scale Re(shape e^(i phase)), as dmb_write_vtk_strings writes them, with fields displacement and rotation. A numbered series of frames plays. Errors: ERR_IO.",
     "dmb_write_vtk_strings":
