@@ -136,7 +136,7 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
 {
     dmb_order order;
     dmb_response *response = NULL;
-    uint32_t shape[3];
+    uint32_t shape[3] = {0};
     int32_t status = read_order(r, k, &order);
     if (status < 0) return status;
     const dmb_response_options options = response_options(r, order.order);
