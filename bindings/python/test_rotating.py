@@ -183,6 +183,14 @@ class LinearStateTest(SpeedsTest):
         self.assertEqual((state.rotation, state.options["friction"], state.refused), (0.0, 0, True))
         self.assertIn("no solution", notes[0])
 
+    def test_a_rotation_outside_the_range_is_noted(self):
+        """The scene turns at 100 rpm; ends of the range are in it."""
+        for low, high, noted in ((60, 240, False), (100, 240, False), (60, 100, False), (110, 240, True), (60, 90, True)):
+            self.scene = self.write("range.toml", SCENE.replace('"60 rpm"', f'"{low} rpm"').replace('"240 rpm"',
+                                                                                                  f'"{high} rpm"'))
+            self.assertEqual("100 rpm is outside the range of [speeds]" in self.ask("speeds", self.scene), noted,
+                             (low, high))
+
     def test_a_refused_state_is_no_all_clear(self):
         """The command, its range and the report say not assessed where the sliding state has no solution and no band
         was found."""

@@ -430,8 +430,11 @@ void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
     switch (trial_step->status) {
     case DMB_ERR_ROTATION:
         owner = dmb_owner_of_element(sim->scene, trial_step->evaluation.element);
-        dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad at time %g, step %g",
-                        owner.text.text, trial_step->evaluation.time, trial_step->end.step);
+        dmb_message_set(
+            &sim->message,
+            "%s: relative rotation in one element above 2.5 rad at time %g, step %g; take shorter steps or more "
+            "elements",
+            owner.text.text, trial_step->evaluation.time, trial_step->end.step);
         break;
     case DMB_ERR_SINGULAR:
         if (trial_step->block == DMB_NONE) {

@@ -10,6 +10,7 @@ from ._structs import Output, Place
 from .results import RPM, CommandOutput
 from .errors import Usage
 from .language import Phrase, phrase
+from .operating import operating
 from .rotating import Linear
 from .scene import Scene
 from .sim import Sim
@@ -80,6 +81,10 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
                    f"{settings['order'][band.order]['order']:g}"
                    + touches(scene, places[band.output], band.severity * limits[band.output], out.units))
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
+    rotation = (operating(scene).rotation or 0.0) / RPM
+    if rotation and not low * (1.0 - 1e-9) <= rotation <= high * (1.0 + 1e-9):
+        out.note_text(f"the rotation of {rotation:.4g} rpm is outside the range of [speeds], {low:.4g} .. {high:.4g} "
+                      "rpm, and is not assessed; widen speed_low or speed_high")
     excited = found.silent is None
     if not excited:
         out.say(f"speeds: not assessed, because {found.silent}")

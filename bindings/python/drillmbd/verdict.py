@@ -60,6 +60,7 @@ class Demand:
     found: list[tuple[float, str]] = field(default_factory=list)  #: value, analysis
     failed: list[str] = field(default_factory=list)               #: analyses without a result, loads that none has
     units: Units = SI                                             #: of the texts
+    key: str = ""                                                 #: of [limits]
 
     def add(self, value: float, source: str) -> None:
         """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing. NaN counts
@@ -91,6 +92,8 @@ class Demand:
             text = phrase("{text}; without {reasons}", text=text, reasons=joined("; ", self.failed))
         share = self.share
         if share is None or self.limit is None:
+            if self.key:
+                text = phrase("{text}; for a verdict give {key} in [limits]", text=text, key=self.key)
             return Tile(self.title, shown(value, self.unit, self.units), text, NO_LIMIT)
         verdict = OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.failed else OK
         return Tile(self.title, shown(value, self.unit, self.units), phrase("{share:.0f} % of {limit}; {text}",

@@ -489,7 +489,8 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     status = find_state(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
-    return status == DMB_OK ? report_stability(sim, &out) : status;
+    if (status == DMB_OK) status = report_stability(sim, &out);
+    return status == DMB_OK && dmb_static_note_slide(sim) ? DMB_NOTE_INCOMPLETE : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

@@ -243,6 +243,8 @@ int32_t dmb_static_revert(dmb_static_search *search);
 
 /* Sets the message of a failed analysis: the part, the value with its bound, and the remedy. */
 void dmb_static_explain(dmb_static_search *search, int32_t status);
+/* 1, with a message, if a string slid along its hole to a place far from the described one. */
+int dmb_static_note_slide(dmb_sim *sim);
 
 /* Options of the static analysis, checked. */
 

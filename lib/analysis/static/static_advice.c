@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "analysis/static/static.h"
+#include "math/vec3.h"
 #include "sim/node.h"
 #include "system/assemble/caller_force.h"
 #include "system/constrain/constrain.h"
@@ -34,6 +35,33 @@ static void name_free_string(dmb_sim *sim, int32_t status)
                         dmb_string_text(scene, i, &string), said.text);
         return;
     }
+}
+
+/* A string that slides further than this part of its length does not rest where it was described. */
+#define DMB_SLID 0.1
+
+/* [m] by which the rig end of a string that nothing holds along its hole slid there. */
+static double slide(const dmb_sim *sim, const dmb_string_map *string)
+{
+    if (is_constrained(sim->scene, string, DMB_X)) return 0.0;
+    return dmb_vec3_norm(sim->now.displacement + 3 * (size_t)string->start_node);
+}
+
+int dmb_static_note_slide(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->string_count && scene->has_hole; i++) {
+        const double slid = slide(sim, scene->strings + i);
+        dmb_message string;
+        if (!(slid > DMB_SLID * scene->strings[i].length)) continue;
+        dmb_message_set(&sim->message,
+                        "static: %s: it slid %g m along its hole to where weight and loads balance, because no support "
+                        "or motion drive holds it and drives of a force hold nothing at rest; give it a drive of "
+                        "component x that prescribes its motion",
+                        dmb_string_text(scene, i, &string), slid);
+        return 1;
+    }
+    return 0;
 }
 
 /* Possible motion of the part of a node, as text. */
