@@ -250,6 +250,14 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual((caught.exception.name, caught.exception.status), ("DMB_ERR_VALUE", mbd.ERR_VALUE))
 
     def test_shown(self):
+        model = mbd.Model()
+        model.add_pipes(7)
+        model.add_pipes(3)
+        self.assertEqual(repr(model), "<Model of 10 pipes, described>")
+        model.compile()
+        self.assertEqual(repr(model), "<Model of 10 pipes, compiled>")
+        model.close()
+        self.assertEqual(repr(model), "<Model, closed>")
         self.assertRegex(repr(self.sim), r"^<Sim of 10 pipes at 0\.05 s, \d+ steps>$")
 
 

@@ -9,7 +9,7 @@
 static int32_t check_something_there(const dmb_model *model, dmb_message *message)
 {
     if (model->strings.count > 0 || model->bodies.count > 0) return DMB_OK;
-    dmb_message_set(message, "model: strings + bodies = 0, must be > 0");
+    dmb_message_set(message, "model: strings + bodies = 0, must be > 0; add a string with pipes, or a body");
     return DMB_ERR_VALUE;
 }
 

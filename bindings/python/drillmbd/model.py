@@ -309,6 +309,12 @@ class Model(Handle, ModelCalls):
         """Continues without the parts whose add_ raised an Error: compile refuses otherwise."""
         self._check(_lib.dmb_model_clear_refused(self._handle))
 
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<Model, closed>"
+        pipes = sum(arguments[0] for name, arguments in self.calls if name == "add_pipes")
+        return f"<Model of {pipes} pipes, {'compiled' if self._compiled else 'described'}>"
+
     # ---- Questions --------------------------------------------------------------------------------------------------
     @mirrors("dmb_model_get_info")
     def info(self) -> ModelInfo:
