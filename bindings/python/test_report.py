@@ -336,7 +336,8 @@ class VerdictTest(unittest.TestCase):
                          ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
         tile = verdict.Demand("x", "N", None, [(5.0, "slide")], key="push").tile()
         self.assertEqual(tile.text, "slide; for a verdict give push in [limits]")
-        self.assertEqual(verdict.Demand("x", "N", 10.0, [(5.0, "slide")], key="push").tile().text, "50 % of 10 N; slide")
+        tile = verdict.Demand("x", "N", 10.0, [(5.0, "slide")], key="push").tile()
+        self.assertEqual(tile.text, "50 % of 10 N; slide")
 
     def test_an_analysis_without_a_value(self):
         """NaN of one analysis is never left out in silence."""

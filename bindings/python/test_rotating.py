@@ -185,7 +185,8 @@ class LinearStateTest(SpeedsTest):
 
     def test_a_rotation_outside_the_range_is_noted(self):
         """The scene turns at 100 rpm; ends of the range are in it."""
-        for low, high, noted in ((60, 240, False), (100, 240, False), (60, 100, False), (110, 240, True), (60, 90, True)):
+        for low, high, noted in ((60, 240, False), (100, 240, False), (60, 100, False), (110, 240, True),
+                                 (60, 90, True)):
             self.scene = self.write("range.toml", SCENE.replace('"60 rpm"', f'"{low} rpm"').replace('"240 rpm"',
                                                                                                   f'"{high} rpm"'))
             self.assertEqual("100 rpm is outside the range of [speeds]" in self.ask("speeds", self.scene), noted,

@@ -52,7 +52,7 @@ static void flexible_strings_come_to_rest(void **state)
         for (int angle = -30; angle <= 30; angle += 10) rest(angle * PI / 180.0, stiffness);
 }
 
-/* How the rig end is held along a hole that falls and then rises. */
+/* Holds of the rig end along a hole that falls and then rises. */
 enum { FORCE = 0, CONTROLLER = 1, NOTHING = 2, MOTION = 3, SUPPORT = 4, HOLDS = 5 };
 
 static void add_hold(dmb_model *model, int hold)

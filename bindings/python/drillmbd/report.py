@@ -49,7 +49,8 @@ class Study:
         self.part, self.limits = scene.names[self.string], scene.limits
         self.plan: Operating = operating(scene)
         self.operations: dict[str, Profile] = {}
-        self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units, key=key) for key, title, unit in (
+        self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units, key=key)
+                        for key, title, unit in (
             ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"),
             ("torque", phrase("Torque at the rig"), "N m"),
             ("yield_stress", phrase("Von Mises stress"), "Pa"))}
