@@ -188,7 +188,8 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
 
 def _against_own_heads(table: Table, places: list[_Place], width: int, key: str) -> list[str]:
     """Given heads that the heads of the file contradict: another unit, or columns counted from the wrong one."""
-    own = table.heads or next(iter(reversed(table.rows[:len(table.rows) - len(_from_numbers(table.rows))])), Row(0, []))
+    before = table.rows[:len(table.rows) - len(_from_numbers(table.rows))]
+    own = table.heads or (before[-1] if before else Row(0, []))
     read = [(one, own.cells[one.index][:40]) for one in places if one.column.unit and one.index < len(own.cells)]
     found = []
     for one, head in read:
