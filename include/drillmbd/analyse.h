@@ -68,10 +68,10 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * forces that act in each state. At rest the rock law does not act and a speed controller acts as at speed 0. The energy ledger
  * restarts. A string whose rotation about its axis nothing resists keeps it (free_spins) where the torques about the axis sum to
  * 0. DMB_NOTE_UNSTABLE: the equilibrium at rest is one that the string would leave (negative > 0); DMB_NOTE_INCOMPLETE: its
- * stability is not resolved (negative < 0; message states the bound); DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message says
- * which part is free), _NO_CONVERGENCE, _ROTATION, _UNSUPPORTED (SLIDING with an eccentric mass, pre-bent pipe or load across
- * that turns with its part, RIGID with gravity, loads, supports, joints or a hole off the axis); the state is then that before
- * the call. O(elements) an iteration. */
+ * stability is not resolved (negative < 0; message states the bound), or a string slid along its hole by over a tenth of its
+ * length; DMB_NOTE_NOT_STEADY. Errors: DMB_ERR_SINGULAR (message says which part is free), _NO_CONVERGENCE, _ROTATION,
+ * _UNSUPPORTED (SLIDING with an eccentric mass, pre-bent pipe or load across that turns with its part, RIGID with gravity, loads,
+ * supports, joints or a hole off the axis); the state is then that before the call. O(elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------- */

@@ -58,11 +58,12 @@ static int32_t check_balance(const dmb_response_work *w)
     const dmb_linear *linear = w->linear;
     if (linear->balanced || linear->relative_residual <= w->options.equilibrium_tolerance) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
-    dmb_message_set(&w->sim->message,
-                    "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s), "
-                    "must be <= %g",
-                    linear->relative_residual, linear->largest_force, owner.text.text,
-                    w->options.equilibrium_tolerance);
+    dmb_message_set(
+        &w->sim->message,
+        "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s), "
+        "must be <= %g; begin with dmb_analysis_static, after one with a slip with friction = 1, or allow a "
+        "larger equilibrium_tolerance",
+        linear->relative_residual, linear->largest_force, owner.text.text, w->options.equilibrium_tolerance);
     return DMB_ERR_VALUE;
 }
 
