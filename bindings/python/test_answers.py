@@ -111,6 +111,15 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(len(whole.axial_force), 21)
         np.testing.assert_array_equal(whole.axial_force, self.sim.profile("rods", 10).axial_force)
 
+    def test_extremes_of_the_profile(self):
+        whole = self.sim.profile()
+        found = self.sim.profile_extremes([mbd.PROFILE_VON_MISES, mbd.PROFILE_EFFECTIVE_FORCE])
+        for quantity, one in found.items():
+            values = whole[quantity]
+            self.assertEqual((one.minimum, one.maximum), (np.nanmin(values), np.nanmax(values)))
+            self.assertEqual((one.minimum_at, one.maximum_at),
+                             (whole.along[np.nanargmin(values)], whole.along[np.nanargmax(values)]))
+
     def test_survey_as_a_list(self):
         """survey is the name that C has; it is described, copied and pickled as stations are."""
         rows = [(0.0, 1.5, 0.0), (50.0, 1.55, 0.1), (100.0, 1.6, 0.1)]

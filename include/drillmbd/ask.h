@@ -215,8 +215,7 @@ enum {
     DMB_PROFILE_DEVIATION_SIDE = 6, /* [m] its horizontal part, along z_world x tangent: left looking ahead */
     DMB_PROFILE_DEVIATION_UP = 7, /* [m] its other part: towards the high side */
     DMB_PROFILE_AXIAL_FORCE = 8, /* [N] true axial force N */
-    DMB_PROFILE_EFFECTIVE_FORCE = 9, /* [N] effective axial force N_e, as dmb_query_section */
-    DMB_PROFILE_TORQUE = 10, /* [N m] */
+    DMB_PROFILE_EFFECTIVE_FORCE = 9, /* [N] effective force N_e, as dmb_query_section */ DMB_PROFILE_TORQUE = 10, /* [N m] */
     DMB_PROFILE_BENDING_MOMENT = 11, /* [N m] magnitude; of axial-torsional pipes EI times the hole's curvature */
     DMB_PROFILE_SHEAR_FORCE = 12, /* [N] magnitude */
     DMB_PROFILE_CURVATURE = 13, /* [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints */
@@ -257,6 +256,8 @@ DMB_SIZED_STRUCT(dmb_profile)
  * He, Kyllingstad 1995; Chen, Lin, Cheatham 1990; in a vertical hole Wu, Juvkam-Wold 1995: eq:drilling.sinusoidal,
  * eq:drilling.helical). Errors: DMB_ERR_VALUE too for strides that overlap, _NOT_FINITE. O(station_count). */
 DMB_API int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile);
+/* extremes, shape (quantity_count, 4): least value, its distance [m], largest, its distance; NaN: no value. Ignores `values`. */
+DMB_API int32_t dmb_query_profile_extremes(const dmb_sim *sim, const dmb_profile *profile, double *extremes);
 /* Name of a quantity ("axial_force") and its unit in *unit (may be NULL); NULL for another number; from 0 without gaps. */
 DMB_API const char *dmb_profile_name(int32_t quantity, const char **unit);
 

@@ -3,6 +3,7 @@
 #include "query/query.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "model/section.h"
 #include "sim/access.h"
@@ -345,10 +346,10 @@ static int32_t fill(station *at, int32_t groups)
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */
 
-static int32_t check_quantities(const dmb_profile *profile, int32_t *groups)
+static int32_t check_quantities(const dmb_profile *profile, const double *values, int32_t *groups)
 {
     *groups = 0;
-    if (profile->quantities == NULL || profile->values == NULL) return DMB_ERR_NULL;
+    if (profile->quantities == NULL || values == NULL) return DMB_ERR_NULL;
     if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_QUANTITIES) return DMB_ERR_VALUE;
     for (uint32_t i = 0; i < profile->quantity_count; i++) {
         if (dmb_profile_groups(profile->quantities[i]) < 0) return DMB_ERR_VALUE;
@@ -402,39 +403,83 @@ static int32_t read_station(station *at, double distance, int32_t groups)
     return fill(at, groups);
 }
 
-static int32_t fill_station(station_iterator *iterator, const dmb_profile *profile, uint32_t i, int32_t groups,
-                            dmb_kept_loads *kept)
+/* Stations of a call, one after the other. */
+typedef struct station_run {
+    dmb_profile profile;
+    station_iterator iterator;
+    int32_t groups;
+    dmb_kept_loads kept;
+} station_run;
+
+static int32_t take_station(station_run *run, uint32_t i, station *at)
 {
-    const double length = iterator->sim->scene->strings[iterator->string].length;
-    const double distance = distance_of(profile, i, length);
-    station at = {.sim = iterator->sim, .kept = kept};
-    int32_t status;
-    at.place = place_at(iterator, profile->string, distance);
-    at.run = &iterator->runs[iterator->run];
-    status = read_station(&at, distance, groups);
-    for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
-        profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
-    return status;
+    const double length = run->iterator.sim->scene->strings[run->iterator.string].length;
+    const double distance = distance_of(&run->profile, i, length);
+    at->kept = &run->kept;
+    at->place = place_at(&run->iterator, run->profile.string, distance);
+    at->run = &run->iterator.runs[run->iterator.run];
+    return read_station(at, distance, run->groups);
+}
+
+/* values: where results go, NULL is refused. */
+static int32_t begin_run(const dmb_sim *sim, const dmb_profile *given, const double *values, station_run *run)
+{
+    dmb_profile *profile = &run->profile;
+    int32_t status = dmb_profile_read(profile, given);
+    run->iterator.sim = sim;
+    if (status == DMB_OK) status = find_string(sim, &profile->string, &run->iterator.string);
+    if (status == DMB_OK) status = check_quantities(profile, values, &run->groups);
+    if (status == DMB_OK) status = check_distances(profile, sim->scene->strings[run->iterator.string].length);
+    if (status < 0) return status;
+    run->iterator.runs = sim->model->runs.items;
+    run->iterator.run_count = sim->model->runs.count;
+    rewind_iterator(&run->iterator);
+    dmb_kept_loads_begin(8 * (uint64_t)profile->station_count < sim->scene->element_count ? 1 : DMB_LOADS_KEPT,
+                         &run->kept);
+    return DMB_OK;
 }
 
 int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *given)
 {
-    int32_t status = dmb_ask(sim, given), groups = 0;
-    dmb_profile profile;
-    dmb_kept_loads kept;
-    station_iterator iterator = {.sim = sim};
-    if (status == DMB_OK) status = dmb_profile_read(&profile, given);
-    if (status == DMB_OK) status = find_string(sim, &profile.string, &iterator.string);
-    if (status == DMB_OK) status = check_quantities(&profile, &groups);
-    if (status == DMB_OK) status = check_distances(&profile, sim->scene->strings[iterator.string].length);
-    if (status == DMB_OK) status = check_strides(&profile);
+    int32_t status = dmb_ask(sim, given);
+    station_run run;
+    station at = {.sim = sim};
+    const dmb_profile *profile = &run.profile;
+    if (status == DMB_OK) status = begin_run(sim, given, given->values, &run);
+    if (status == DMB_OK) status = check_strides(&run.profile);
+    for (uint32_t i = 0; status >= 0 && i < profile->station_count; i++) {
+        status = take_station(&run, i, &at);
+        for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
+            profile->values[i * profile->station_stride + q * profile->quantity_stride] =
+                at.values[profile->quantities[q]];
+    }
+    return status;
+}
+
+/* extreme: least value, its distance, largest, its distance. */
+static void widen(double value, double distance, double extreme[4])
+{
+    if (isnan(value)) return;
+    if (!(extreme[0] <= value)) extreme[0] = value, extreme[1] = distance;
+    if (!(extreme[2] >= value)) extreme[2] = value, extreme[3] = distance;
+}
+
+int32_t dmb_answer_profile_extremes(const dmb_sim *sim, const dmb_profile *given, double *extremes)
+{
+    int32_t status = dmb_ask(sim, given);
+    double found[DMB_PROFILE_QUANTITIES][4];
+    station_run run;
+    station at = {.sim = sim};
+    const dmb_profile *profile = &run.profile;
+    if (status == DMB_OK) status = begin_run(sim, given, extremes, &run);
     if (status < 0) return status;
-    iterator.runs = sim->model->runs.items;
-    iterator.run_count = sim->model->runs.count;
-    rewind_iterator(&iterator);
-    dmb_kept_loads_begin(8 * (uint64_t)profile.station_count < sim->scene->element_count ? 1 : DMB_LOADS_KEPT, &kept);
-    for (uint32_t i = 0; i < profile.station_count && status >= 0; i++)
-        status = fill_station(&iterator, &profile, i, groups, &kept);
+    for (uint32_t i = 0; i < 4 * profile->quantity_count; i++) found[i / 4][i % 4] = (double)NAN;
+    for (uint32_t i = 0; i < profile->station_count && status >= 0; i++) {
+        status = take_station(&run, i, &at);
+        for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
+            widen(at.values[profile->quantities[q]], at.values[DMB_PROFILE_DISTANCE], found[q]);
+    }
+    if (status >= 0) memcpy(extremes, found, 4 * profile->quantity_count * sizeof *extremes);
     return status;
 }
 

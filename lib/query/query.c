@@ -171,6 +171,15 @@ int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile)
     return result(sim, status, (query){"profile", NULL, NULL, 0, 0});
 }
 
+int32_t dmb_query_profile_extremes(const dmb_sim *sim, const dmb_profile *profile, double *extremes)
+{
+    const int32_t status = dmb_answer_profile_extremes(sim, profile, extremes);
+    if (status == DMB_ERR_NULL)
+        return dmb_sim_fail(sim, status, "profile",
+                            "profile: sim, profile, its quantities and the extremes must not be NULL; give them");
+    return result(sim, status, (query){"profile", NULL, NULL, 0, 0});
+}
+
 int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
 {
     const dmb_place place = dmb_station(part, 0, 0.0);

@@ -351,6 +351,7 @@ int32_t dmb_answer_output(const dmb_sim *sim, const dmb_output *output, double *
 int32_t dmb_answer_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose);
 int32_t dmb_answer_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose);
 int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *profile);
+int32_t dmb_answer_profile_extremes(const dmb_sim *sim, const dmb_profile *profile, double *extremes);
 int32_t dmb_answer_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
 int32_t dmb_answer_rotation(const dmb_sim *sim, dmb_place place, double *angle);
 int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer);

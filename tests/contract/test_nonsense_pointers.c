@@ -538,6 +538,8 @@ static void of_queries(void **state)
     MISSING(dmb_query_flow(s.r.sim, NULL));
     MISSING(dmb_query_profile(NULL, NULL));
     MISSING(dmb_query_profile(s.r.sim, NULL));
+    MISSING(dmb_query_profile_extremes(NULL, NULL, NULL));
+    MISSING(dmb_query_profile_extremes(s.r.sim, NULL, NULL));
     MISSING(dmb_query_spring(NULL, s.string, &spring));
     MISSING(dmb_query_spring(s.r.sim, s.string, NULL));
     MISSING(dmb_query_stuck(NULL, s.string, &stuck));

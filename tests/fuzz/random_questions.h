@@ -31,8 +31,10 @@ static inline void ask_profile(dmb_sim *sim, random_scene *c)
     byte_source *s = &c->source;
     dmb_profile profile = dmb_profile_default();
     double values[GUARD + STATIONS * QUANTITIES], distance[STATIONS];
+    double extremes[4 * QUANTITIES + 1];
     int32_t quantities[QUANTITIES];
     for (int i = 0; i < GUARD + STATIONS * QUANTITIES; i++) values[i] = 0.5;
+    for (int i = 0; i <= 4 * QUANTITIES; i++) extremes[i] = 0.5;
     for (int i = 0; i < QUANTITIES; i++) quantities[i] = (int32_t)draw_below(s, (DMB_PROFILE_GAP + 1) + 1);
     for (int i = 0; i < STATIONS; i++) distance[i] = draw_number(s, 0.0, 5.0);
     if (c->strings > 0) profile.string = c->string[draw_below(s, c->strings)];
@@ -45,6 +47,8 @@ static inline void ask_profile(dmb_sim *sim, random_scene *c)
     must_be_known(status);
     for (uint32_t i = 1; status < 0 && i < GUARD + STATIONS * QUANTITIES; i++) MUST(values[i] == 0.5);
     MUST(values[0] == 0.5 && values[1 + profile.station_count * profile.quantity_count] == 0.5);
+    must_be_known(dmb_query_profile_extremes(sim, &profile, extremes));
+    MUST(extremes[4 * profile.quantity_count] == 0.5);
 }
 
 static inline void ask_reactions(dmb_sim *sim, random_scene *c)

@@ -36,7 +36,7 @@ from .errors import Error, status_name, status_text
 from .fatigue import Fatigue
 from .inputs import InputLog, Inputs
 from .model import Model, motor_drive
-from .profile import Profile
+from .profile import Extremes, Profile
 from .recorder import ProfileRecorder, Recorder
 from .sensitivity import Sensitivity, sensitivity_of
 from .state_equation import StateEquation
@@ -44,9 +44,9 @@ from .sim import Progress, Sim
 from .state_space import Arrays, StateSpace
 from .window import Window
 
-__all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation", "StateSpace",
-           "TorqueDrag", "Window", "output_name",
+__all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Extremes", "Fatigue", "Model", "Modes",
+           "Profile", "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateEquation",
+           "StateSpace", "TorqueDrag", "Window", "output_name",
            "output_names", "output_of", "output_quantity", "output_text", "output_unit", "motor_drive",
            "operation_name", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]

@@ -172,6 +172,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_pose": (c_int32, c_void_p, Place, POINTER(Pose),),
     "dmb_query_pose_at": (c_int32, c_void_p, Place, POINTER(c_double), POINTER(Pose),),
     "dmb_query_profile": (c_int32, c_void_p, POINTER(ProfileStruct),),
+    "dmb_query_profile_extremes": (c_int32, c_void_p, POINTER(ProfileStruct), POINTER(c_double),),
     "dmb_query_reaction": (c_int32, c_void_p, Id, POINTER(c_double),),
     "dmb_query_rotation": (c_int32, c_void_p, Place, POINTER(c_double),),
     "dmb_query_row": (c_int32, c_void_p, c_uint32, POINTER(Row),),
@@ -447,6 +448,8 @@ FUNCTION_DOCS = {
         "Pose and motion of a point off a place: offset [m] in the axes of the place. Errors too: ERR_NOT_FINITE.",
     "dmb_query_profile":
         "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction, with the contact force per metre that the unbuckled pipe would have (Dawson, Paslay 1984; He, Kyllingstad 1995; Chen, Lin, Cheatham 1990; in a vertical hole Wu, Juvkam-Wold 1995: eq:drilling.sinusoidal, eq:drilling.helical). Errors: ERR_VALUE too for strides that overlap, _NOT_FINITE. O(station_count).",
+    "dmb_query_profile_extremes":
+        "extremes, shape (quantity_count, 4): least value, its distance [m], largest, its distance; NaN: no value. Ignores `values`.",
     "dmb_query_reaction":
         "[N, N m] force and moment of the support and the motion drives on the rig end of a string or on a supported body, body frame, shape (6); 0 in components that are free.",
     "dmb_query_rotation":
@@ -476,7 +479,7 @@ FUNCTION_DOCS = {
     "dmb_sensitivity_rows":
         "Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many there are; with both arrays NULL that is all. Errors: _ORDER as above.",
     "dmb_sensitivity_step":
-        "dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: other calls moved the sim; _UNSUPPORTED: a stuck place is released; _SINGULAR: the matrix at the end of a step. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side of a parameter: of a string in contact some 0.8 steps for each of four parameters, one-sided 0.55; more where contacts change, with joints, bits, actuators, stuck places, callers' forces.",
+        "dmb_sim_step and dmb_sim_advance of the sim, with the same bits, and the derivatives along with it, of each accepted step as it was done, its length, breakpoints and kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: other calls moved the sim; _UNSUPPORTED: a stuck place is released; _SINGULAR: the matrix at the end of a step. Allocates nothing. Costs 2 to 3.5 steps for one parameter, 1.2 to 2.1 for each of four; two sims more, with the parameter lower and higher, cost 2, also on threads of their own: better for one or two.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. Errors of steps add up over a run, to some thousand times the tolerances in 10 s: repeat it with a tenth of the tolerances to estimate the error at its end. NOTE_TOLERANCE where a step of step_min was too long for them; before that NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one.",
     "dmb_sim_advance_to_event":

@@ -2868,7 +2868,7 @@ class Contact(Sized):
 
 
 class ProfileStruct(Sized):
-    c_name, about = "dmb_profile", "For dmb_query_profile."
+    c_name, about = "dmb_profile", "For dmb_query_profile, dmb_query_profile_extremes."
     struct_size: int
     station_count: int
     string: Id

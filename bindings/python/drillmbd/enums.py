@@ -722,7 +722,7 @@ class ProfileQuantity(IntEnum):
     DEVIATION_SIDE: [m] its horizontal part, along z_world x tangent: left looking ahead
     DEVIATION_UP: [m] its other part: towards the high side
     AXIAL_FORCE: [N] true axial force N
-    EFFECTIVE_FORCE: [N] effective axial force N_e, as dmb_query_section
+    EFFECTIVE_FORCE: [N] effective force N_e, as dmb_query_section
     TORQUE: [N m]
     BENDING_MOMENT: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature
     SHEAR_FORCE: [N] magnitude

@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, cast
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ._keep import station
 from ._library import lib
@@ -106,20 +106,47 @@ class Profile:
                                          self.values[one.name.lower()] for one in QUANTITIES})
 
 
+class Extremes(NamedTuple):
+    """Least and largest value of a quantity over the stations of a string, and their distances [m] from the rig end;
+    NaN where no station has a value."""
+    minimum: float
+    minimum_at: float
+    maximum: float
+    maximum_at: float
+
+
+class _Stations:
+    """Quantities PROFILE_... at distances [m] from the rig end, or at `count` stations spread evenly."""
+
+    def __init__(self, string: Id, quantities: Iterable[int], distance: Any, count: int) -> None:
+        numpy = need("numpy")
+        self.wanted = numpy.array(list(quantities), dtype=numpy.int32)
+        self.places = None if distance is None else numpy.ascontiguousarray(distance, dtype=float).reshape(-1)
+        self.count = count if self.places is None else len(self.places)
+        self.request = ProfileStruct(string=string, station_count=self.count, quantity_count=len(self.wanted),
+                                     quantities=cast(self.wanted.ctypes.data, POINTER(c_int32)))
+        if self.places is not None:
+            self.request.distance = cast(self.places.ctypes.data, POINTER(c_double))
+
+
 def values_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = None, count: int = 0) -> Any:
     """Quantities PROFILE_... at distances [m] from the rig end, or at `count` stations spread evenly; numpy array of
     shape (stations, quantities)."""
-    numpy = need("numpy")
-    wanted = numpy.array(list(quantities), dtype=numpy.int32)
-    places = None if distance is None else numpy.ascontiguousarray(distance, dtype=float).reshape(-1)
-    values = numpy.empty((count if places is None else len(places), len(wanted)))
-    request = ProfileStruct(string=string, station_count=len(values), quantity_count=len(wanted),
-                            quantities=cast(wanted.ctypes.data, POINTER(c_int32)),
-                            values=cast(values.ctypes.data, POINTER(c_double)))
-    if places is not None:
-        request.distance = cast(places.ctypes.data, POINTER(c_double))
-    sim._told(lib.dmb_query_profile(sim._handle, byref(request)), lib.dmb_query_profile, request.string)
+    asked = _Stations(string, quantities, distance, count)
+    values = need("numpy").empty((asked.count, len(asked.wanted)))
+    asked.request.values = cast(values.ctypes.data, POINTER(c_double))
+    sim._told(lib.dmb_query_profile(sim._handle, byref(asked.request)), lib.dmb_query_profile, string)
     return values
+
+
+def extremes_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = None,
+                count: int = 0) -> list[Extremes]:
+    """Extremes of each quantity over these stations, in one call."""
+    asked = _Stations(string, quantities, distance, count)
+    found = (c_double * (4 * len(asked.wanted)))()
+    sim._told(lib.dmb_query_profile_extremes(sim._handle, byref(asked.request), found), lib.dmb_query_profile_extremes,
+              string)
+    return [Extremes(*found[4 * i:4 * i + 4]) for i in range(len(asked.wanted))]
 
 
 def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:

@@ -446,8 +446,9 @@ class Study:
         """One more frame, and its largest stress."""
         course.shapes.append(self._shape(sim))
         course.times.append(sim.time)
-        stress = _largest(sim.profile(self.part, self.pipes, 1)["von_mises"])
-        if stress is not None:
+        quantity = enums.PROFILE_VON_MISES
+        stress = sim.profile_extremes([quantity], self.part, self.pipes, 1)[quantity].maximum
+        if not math.isnan(stress):
             course.stresses.append((stress, sim.time))
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:

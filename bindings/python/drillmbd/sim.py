@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from .fatigue import Fatigue, StringFatigue
     from .sensitivity import Sensitivity
     from .state_equation import StateEquation
-    from .profile import Profile
+    from .profile import Extremes, Profile
     from .state_space import Arrays, StateSpace
     from .window import Window
 
@@ -455,6 +455,15 @@ class Sim(Handle, analysis.Analyses):
         from .profile import profile
         asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
         return profile(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, per_pipe)
+
+    @mirrors("dmb_query_profile_extremes")
+    def profile_extremes(self, quantities: Sequence[int], string: StringId | str | None = None,
+                         pipes: int | None = None, per_pipe: int = 2) -> dict[int, Extremes]:
+        """Least and largest value of each quantity PROFILE_... over the stations of `profile`, and their distances."""
+        from .profile import extremes_of
+        asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
+        count = self._parts.pipes.get(asked.index, 0) if pipes is None else pipes
+        return dict(zip(quantities, extremes_of(self, asked, quantities, count=count * per_pipe + 1)))
 
     @mirrors("dmb_analysis_state_space")
     def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[Any] = (),

@@ -1,6 +1,6 @@
 /* Section forces by lanes: the same bits at every width, in profiles that go forward, back and sparsely and in single
  * questions; loads of the ends of elements against those computed one by one (eq:beam.section-force). Each quantity
- * alone, for which only its own terms are computed, against all of them. */
+ * alone, for which only its own terms are computed, against all of them; extremes against the values of stations. */
 #include <string.h>
 
 #include "close.h"
@@ -185,10 +185,74 @@ static void each_alone_is_as_with_all(void **state)
     }
 }
 
+/* The first of equal values, NaN of rigid pipes left out. */
+static void check_extremes(const double *values, const double *distance, const double extremes[4])
+{
+    int least = -1, largest = -1;
+    for (int k = 0; k < STATIONS; k++) {
+        const double value = values[QUANTITIES * k];
+        if (isnan(value)) continue;
+        if (least < 0 || value < values[QUANTITIES * least]) least = k;
+        if (largest < 0 || value > values[QUANTITIES * largest]) largest = k;
+    }
+    const double wanted[4] = {values[QUANTITIES * least], distance[least], values[QUANTITIES * largest],
+                              distance[largest]};
+    assert_memory_equal(extremes, wanted, sizeof wanted);
+}
+
+static void extremes_are_those_of_the_stations(void **state)
+{
+    (void)state;
+    for (int back = 0; back < 2; back++) {
+        rig s = swing(1, 0.002);
+        double distance[STATIONS], values[STATIONS][QUANTITIES], extremes[QUANTITIES + 1][4];
+        int32_t quantities[QUANTITIES + 1] = {0};
+        dmb_profile profile = dmb_profile_default();
+        for (int k = 0; k < STATIONS; k++) distance[k] = distance_of(back ? STATIONS - 1 - k : k);
+        for (int q = 0; q < QUANTITIES; q++) quantities[q] = asked[q];
+        quantities[QUANTITIES] = DMB_PROFILE_YIELD_SHARE; /* not known: no value */
+        profile.station_count = STATIONS;
+        profile.distance = distance;
+        profile.quantities = quantities;
+        profile.quantity_count = QUANTITIES + 1;
+        must(&s, dmb_query_profile_extremes(s.sim, &profile, extremes[0]));
+        ask(&s, STATIONS, distance, values[0]);
+        for (int q = 0; q < QUANTITIES; q++) check_extremes(values[0] + q, distance, extremes[q]);
+        for (int i = 0; i < 4; i++) assert_true(isnan(extremes[QUANTITIES][i]));
+        profile.distance = NULL;
+        profile.quantities = asked;
+        profile.quantity_count = 1;
+        must(&s, dmb_query_profile_extremes(s.sim, &profile, extremes[0]));
+        if (!back) check_extremes(values[0], distance, extremes[0]);
+        rig_close(&s);
+    }
+}
+
+static void extremes_that_are_refused_are_left(void **state)
+{
+    (void)state;
+    rig s = swing(0, 0.0);
+    double extremes[4] = {1.0, 2.0, 3.0, 4.0}, distance[2] = {0.5, 1e3};
+    dmb_profile profile = dmb_profile_default();
+    profile.quantities = asked;
+    profile.quantity_count = 1;
+    profile.station_count = 2;
+    profile.distance = distance;
+    assert_int_equal(dmb_query_profile_extremes(s.sim, &profile, extremes), DMB_ERR_VALUE);
+    assert_int_equal(dmb_query_profile_extremes(s.sim, &profile, NULL), DMB_ERR_NULL);
+    profile.quantities = NULL;
+    assert_int_equal(dmb_query_profile_extremes(s.sim, &profile, extremes), DMB_ERR_NULL);
+    for (int i = 0; i < 4; i++) assert_true(extremes[i] == i + 1.0);
+    rig_close(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_widths_and_orders_have_the_same_bits), cmocka_unit_test(profiles_agree_with_questions),
-        cmocka_unit_test(end_loads_match_those_of_one_element), cmocka_unit_test(each_alone_is_as_with_all)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_widths_and_orders_have_the_same_bits),
+                                       cmocka_unit_test(profiles_agree_with_questions),
+                                       cmocka_unit_test(end_loads_match_those_of_one_element),
+                                       cmocka_unit_test(each_alone_is_as_with_all),
+                                       cmocka_unit_test(extremes_are_those_of_the_stations),
+                                       cmocka_unit_test(extremes_that_are_refused_are_left)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

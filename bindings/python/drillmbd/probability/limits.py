@@ -12,7 +12,7 @@ from .. import enums
 from .._keep import as_place
 from .._optional import need
 from .._structs import TorqueDragRow
-from ..profile import values_of
+from ..profile import extremes_of
 from ..scene.failure import KINDS, Failure
 from ..sim import Sim
 
@@ -250,17 +250,14 @@ class Watch:
         self.rows.append(self._extremes())
 
     def _extremes(self) -> list[float]:
-        numpy = need("numpy")
         row = [math.nan] * len(self.profiles)
         for name in dict.fromkeys(one[0] for one in self.profiles):
             mine = [(i, one) for i, one in enumerate(self.profiles) if one[0] == name]
             quantities = list(dict.fromkeys(one[1] for _, one in mine))
-            table = values_of(self.sim, self.scene.names[name], quantities,
-                              count=min(self.scene.pipes[name], STATIONS) + 1)
+            found = dict(zip(quantities, extremes_of(self.sim, self.scene.names[name], quantities,
+                                                     count=min(self.scene.pipes[name], STATIONS) + 1)))
             for i, (_, quantity, what) in mine:
-                column = table[:, quantities.index(quantity)]
-                if not numpy.isnan(column).all():
-                    row[i] = float(numpy.nanmax(column) if what == "max" else numpy.nanmin(column))
+                row[i] = found[quantity].maximum if what == "max" else found[quantity].minimum
         return row
 
     def signals(self, failure: Failure) -> dict[str, Any]:
