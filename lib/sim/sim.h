@@ -93,7 +93,8 @@ typedef struct dmb_drive_variables {
     /* system/assemble/bounces, of stops and springs that may open: */                                                \
     X(double, bounce_place, u, NUMBERS)         /* [m, rad] coordinate of the joint, elongation of the spring */      \
     X(double, bounce_force, u, NUMBERS)         /* [N, N m] force of the law there, against growing coordinates */    \
-    X(double, bounce_speed, u, NUMBERS)         /* [m/s, rad/s] of the coordinate */                                  \
+    X(double, bounce_speed, u, NUMBERS)         /* [m/s, rad/s] of the coordinate: system/assemble/bounces,           \
+                                                   system/bounce_end */                                               \
     X(double, law_speed, law, NUMBERS)          /* [m/s, rad/s] of coordinates with a law:                            \
                                                    system/assemble/joint_forces; at jumps                             \
                                                    system/assemble/ledger_work */                                     \
