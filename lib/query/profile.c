@@ -467,7 +467,7 @@ static void widen(double value, double distance, double extreme[4])
 int32_t dmb_answer_profile_extremes(const dmb_sim *sim, const dmb_profile *given, double *extremes)
 {
     int32_t status = dmb_ask(sim, given);
-    double found[DMB_PROFILE_QUANTITIES][4];
+    double found[DMB_PROFILE_QUANTITIES][4] = {{0.0}};
     station_run run;
     station at = {.sim = sim};
     const dmb_profile *profile = &run.profile;

@@ -86,16 +86,17 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     return n;
 }
 
-/* Compares a residual with its bound. The rounding of poses counts with elements and joints; for bodies alone on walls
- * and springs at rest, and in a step after a correction by its own tangent: the forces of a stiff spring that has come
- * to rest are nothing but rounding. Overflow never converges, because everything is small relative to infinity. */
+/* Compares a residual with its bound. The rounding of poses counts with elements and joints; for bodies alone at rest;
+ * and on springs without walls in a step after a correction by its own tangent: the forces of a stiff spring that has
+ * come to rest are nothing but rounding. Overflow never converges, because everything is small relative to infinity. */
 static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, double part, norms n)
 {
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
-    const int corrected = !evaluation->dynamic || evaluation->extrapolated;
-    const int stiff = chain->count > 1 || chain->jointed || (corrected && evaluation->sim->scene->element_count == 0);
+    const dmb_scene *scene = evaluation->sim->scene;
+    const int corrected = !evaluation->dynamic || (evaluation->extrapolated && scene->site_count == 0);
+    const int stiff = chain->count > 1 || chain->jointed || (corrected && scene->element_count == 0);
     if (stiff && n.rest <= floor * floor * evaluation->rounding) return DMB_AT_ROUNDING;
     return n.rest <= part ? DMB_SMALL_PART : 0;
 }
