@@ -150,6 +150,8 @@ class StartingTest(unittest.TestCase):
             self.assertEqual(len(listed), len(set(listed)))
         self.assertRegex(said("keys", "string.pipes")[1], r"outer_diameter +\[m\], default 0.073 m")
         self.assertRegex(said("keys", "drive")[1], r'time_function +required: .* a constant, as "120 rpm"')
+        self.assertRegex(said("keys", "speeds.order")[1], r"order +\[-\]: frequency over rotary speed, > 0")
+        self.assertRegex(said("keys", "speeds.output")[1], r"quantity +one of displacement-x")
         self.assertEqual(said("keys", "pips")[0], 2)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from . import hole, units
 from .settings import LIMITS, OUTPUT, RUN
-from .fields import DEFINITIONS, Field, fields_of, words_of
+from .fields import DEFINITIONS, Field, fields_of, output_fields, words_of
 from .problems import meant
 
 # Tables in the order in which a scene is written, with the struct of their fields and the keys in common use.
@@ -27,9 +27,12 @@ TABLES: dict[str, tuple[str, str]] = {
     "spring": ("spring", ""),
     "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress make_up_torque"),
     "run": ("", "end step static"),
-    "results": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"),
-    "response": ("response", ""),
-    "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""),
+    "results": ("", "interval units"), "output": ("", "name place"),
+    "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"),
+    "response": ("response", ""), "response.excitation": ("response excitation", ""),
+    "response.output": ("", "name place"), "speeds": ("speeds", ""),
+    "speeds.order": ("response excitation", "order kind place component"), "speeds.output": ("", "name place"),
+    "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""),
     "sim": ("sim", "")}
 
 _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
@@ -49,6 +52,7 @@ _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 
                             'mm/s", 0.24]] (static until '
                             "70 mm/s), instead of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or "
                             "bristle"),
+         "place": ("", "", 'a part by its name, and where on it, as {part = "main", pipe = 6}'),
          "table": ("", "", 'pairs, as [["0 s", "0 kN"], ["2 s", "8 kN"]]')}
 
 
@@ -56,8 +60,11 @@ NO_BOUND = 1e30  # a default from here on, or NaN, is no value of the field
 
 
 def _fields(table: str) -> dict[str, Field]:
-    own: dict[str, dict[str, Field]] = {"limits": LIMITS, "run": RUN, "results": OUTPUT}
+    own: dict[str, dict[str, Field]] = {"limits": LIMITS, "run": RUN, "results": OUTPUT, "output": output_fields(),
+                                        "response.output": output_fields(), "speeds.output": output_fields()}
     found = dict(own[table] if table in own else fields_of(DEFINITIONS[TABLES[table][0]]))
+    if table == "speeds.order":
+        found = {"order": fields_of(DEFINITIONS["order"])["order"], **found}
     if table == "string.pipes":
         del found["string"]  # they stand in their string
     return {**found, **hole.STRAIGHT} if table == "hole" else found
@@ -93,7 +100,7 @@ def listed(table: str) -> list[tuple[str, str, str, str]]:
     known, usual = _fields(table), TABLES[table][1].split()
     rows = []
     for key in [*usual, *(one for one in known if one not in usual)]:
-        if key in known and key != "name":
+        if key in known and (known[key].about or key not in _TEXT) and key != "name":
             rows.append((key, known[key].unit, _default(table, known[key]), _meaning(known[key])))
         else:
             rows.append((key, *_TEXT[key]))
