@@ -3,8 +3,6 @@
 #include "force/bit_rock.h"
 #include "query/query.h"
 #include "sim/access.h"
-#include "sim/node.h"
-#include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 
@@ -42,13 +40,13 @@ static double signed_value(double sign, double value)
 static void add_half_damping(const dmb_sim *sim, uint32_t element, double load[2])
 {
     const dmb_scene *scene = sim->scene;
-    const double *v = sim->now.velocity + scene->layout.row[scene->element_node[element]];
-    const double half = 0.5 * scene->types[scene->element_type[element]].length;
-    double c[3];
-    if ((scene->features & DMB_FEATURE_DAMPING) == 0 || dmb_is_quasi_static(&sim->now)) return;
-    dmb_external_damping(sim, c);
-    load[0] -= half * c[1] * v[0];
-    load[1] -= half * c[2] * v[1];
+    const double *along = sim->now.velocity + scene->layout.row[scene->element_node[element]];
+    const double v[6] = {along[0], 0.0, 0.0, along[1], 0.0, 0.0};
+    const double half[3] = {0.5 * scene->types[scene->element_type[element]].length, 0.0, 0.0};
+    double f[6];
+    if (!dmb_external_damping_at(sim, half, v, f)) return;
+    load[0] += f[0];
+    load[1] += f[3];
 }
 
 /* For axial-torsional pipes dmb_query_section returns the mean over an element; here the value is that at the section

@@ -181,6 +181,9 @@ void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_materia
  * sites + loads + springs + stuck places). */
 void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                          dmb_kept_loads *kept, double load[6]);
+/* 1, and the force and moment of the external damping of pipe by its integrals of 1, x, x^2 about a section, whose
+ * velocity is v, in the axes of both; 0: there is none, or the state is quasi-static. */
+int dmb_external_damping_at(const dmb_sim *sim, const double damped[3], const double v[6], double f[6]);
 /* Changes the load at the near end of the tool joint to that at the point in it, in place. */
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6]);

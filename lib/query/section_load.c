@@ -5,6 +5,7 @@
 
 #include "element/beam.h"
 #include "element/rigid_mass.h"
+#include "force/weight_and_damping.h"
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "math/vec3.h"
@@ -359,22 +360,27 @@ static void add_eccentric(host *h, const dmb_described_pipe *pipe)
 
 /* ---- External damping -------------------------------------------------------------------------------------------- */
 
+int dmb_external_damping_at(const dmb_sim *sim, const double damped[3], const double v[6], double f[6])
+{
+    double c[3], of_length[5];
+    if ((sim->scene->features & DMB_FEATURE_DAMPING) == 0 || dmb_is_quasi_static(&sim->now)) return 0;
+    dmb_external_damping(sim, c);
+    dmb_node_damping_of(damped, c[1], c[2], c[0], of_length);
+    dmb_damping_force(of_length, v, f);
+    return 1;
+}
+
 /* Each node has the damping of half of the element, which acts along all of it, as the velocities there. */
 static void add_external_damping(host *h)
 {
-    const dmb_scene *scene = h->sim->scene;
-    const dmb_configuration *now = &h->sim->now;
-    const double half = 0.5 * h->type->length;
-    double c[3];
-    if ((scene->features & DMB_FEATURE_DAMPING) == 0 || dmb_is_quasi_static(now)) return;
-    dmb_external_damping(h->sim, c);
+    const double half[3] = {0.5 * h->type->length, 0.0, 0.0};
     for (uint32_t end = 0; end < 2; end++) {
         const double sign = end ? -1.0 : 1.0;
-        double v[6], across[3];
-        dmb_node_vector(scene, now, h->node + end, now->velocity, v);
+        double v[6], f[6], across[3];
+        dmb_node_vector(h->sim->scene, &h->sim->now, h->node + end, h->sim->now.velocity, v);
         dmb_arm_velocity(sign * h->type->arm[end], v);
-        const double f[4] = {-half * c[1] * v[0], -half * c[0] * v[1], -half * c[0] * v[2], -half * c[2] * v[3]};
-        for (uint32_t i = 0; i < 4; i++) h->load[6 * end + i] += sign * f[i];
+        if (!dmb_external_damping_at(h->sim, half, v, f)) return;
+        for (uint32_t i = 0; i < 6; i++) h->load[6 * end + i] += sign * f[i];
         dmb_mat3_vec(end ? h->b.Q : h->a.Q, f, across);
         dmb_vec3_axpy(-2.0 * sign, across, h->growth);
     }
@@ -453,6 +459,18 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
 
 /* Section load in a tool joint: from its near end to the section, `beyond` [m] further, by mass and weight of the part
  * between. */
+/* External damping of the tool joint between the element and a point in it. */
+static void damp_joint(const dmb_sim *sim, const dmb_element_type *type, const dmb_material_point *point,
+                       double load[6])
+{
+    const double b = point->beyond, damped[3] = {b, -0.5 * b * b, b * b * b / 3.0};
+    double v[6], f[6];
+    dmb_node_vector(sim->scene, &sim->now, sim->scene->element_node[point->element] + 1, sim->now.velocity, v);
+    dmb_arm_velocity(b - type->arm[1], v);
+    if (dmb_external_damping_at(sim, damped, v, f))
+        for (int i = 0; i < 6; i++) load[i] -= f[i];
+}
+
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6])
 {
@@ -467,4 +485,5 @@ void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pip
     dmb_arm_wrench(type->arm[1] - point->beyond, f);
     dmb_arm_wrench(-point->beyond, load);
     for (int i = 0; i < 6; i++) load[i] += f[i];
+    damp_joint(sim, type, point, load);
 }

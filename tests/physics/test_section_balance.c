@@ -647,6 +647,44 @@ static void damped_across(uint32_t elements)
     rig_close(&r.s);
 }
 
+/* The same of a pipe that ends with a tool joint, whose node is beyond it. */
+static void damped_tool_joints(uint32_t elements)
+{
+    const double speed = 0.3, length = 1.5;
+    rig s;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_environment_def environment = dmb_environment_def_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    environment.gravity[2] = 0.0;
+    environment.lateral_damping = lateral_damping;
+    environment.axial_damping = axial_damping;
+    must_model(&s, dmb_model_set_environment(s.model, &environment));
+    def.start_free = DMB_FREE_XY;
+    pipe.elements = elements;
+    pipe.joint_length = 0.3, pipe.joint_outer_diameter = 0.1, pipe.joint_mass = 12.0;
+    pipe.damping_time = 1e-2;
+    pipe.string = add_string(&s, &def);
+    (void)add_pipes(&s, &pipe, 2);
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_constant(&s, speed));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_Y, add_constant(&s, 1e-3 * speed));
+    dmb_sim_options options = dmb_sim_options_default();
+    options.spectral_radius = 0.0, options.newton_tolerance = 1e-12;
+    (void)rig_start(&s, &options);
+    take_divided_steps(&s, 1e-2, 2000);
+    for (uint32_t p = 0; p < 2; p++)
+        for (double f = 0.0; f <= 1.0; f += 0.0625) {
+            const double beyond = (2.0 - p - f) * length, pull = axial_damping * speed,
+                         q = 1e-3 * lateral_damping * speed;
+            dmb_section section = dmb_section_default();
+            must(&s, dmb_query_section(s.sim, dmb_station(pipe.string, p, f), &section));
+            check_close("axial force by damping", section.force[0], -pull * beyond, 1e-5 * pull);
+            check_close("shear force by damping", section.force[1], -q * beyond, 1e-3 * q);
+            check_close("bending moment by damping", section.force[5], -0.5 * q * beyond * beyond, 1e-3 * q);
+        }
+    rig_close(&s);
+}
+
 static void external_damping_is_distributed(void **state)
 {
     (void)state;
@@ -654,6 +692,7 @@ static void external_damping_is_distributed(void **state)
         damped_along_and_about(DMB_PIPE_FLEXIBLE, elements);
         damped_along_and_about(DMB_PIPE_AXIAL_TORSIONAL, elements);
         damped_across(elements);
+        damped_tool_joints(elements);
     }
 }
 
