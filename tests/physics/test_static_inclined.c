@@ -109,6 +109,10 @@ static void slides_to(int hold, double drop, double turning)
         check_below("less than a tenth of 60 m", 6.0, slid);
     if (drop != 0.0) assert_int_equal(status, is_held ? DMB_OK : DMB_NOTE_INCOMPLETE);
     assert_int_equal(status > 0 && strstr(dmb_sim_message(sim), "string 0: it slid") != NULL, !is_held);
+    if (drop != 0.0) { /* from there on it stays */
+        assert_true(dmb_analysis_static(sim, &options, NULL) >= 0);
+        assert_null(strstr(dmb_sim_message(sim), "it slid"));
+    }
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);
 }

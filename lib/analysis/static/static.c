@@ -296,6 +296,7 @@ static int32_t settle(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     dmb_system_unwrap(sim);
+    search->slides = dmb_static_note_slide(sim);
     dmb_system_accept(&search->evaluation);
     int32_t status = set_motion(search);
     guess_rock(search);
@@ -490,7 +491,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     status = find_state(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
     if (status == DMB_OK) status = report_stability(sim, &out);
-    return status == DMB_OK && dmb_static_note_slide(sim) ? DMB_NOTE_INCOMPLETE : status;
+    return status == DMB_OK && search.slides ? DMB_NOTE_INCOMPLETE : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

@@ -113,11 +113,11 @@ typedef struct dmb_static_search {
     uint32_t block;        /* block found singular */
     int32_t unconstrained; /* 1: unconstrained_block seems unconstrained in the starting pose */
     uint32_t unconstrained_block;
-    double residual;      /* [-] relative, last */
-    double moved;         /* [-] largest component of the last correction, in length scales */
-    double moved_before;  /* [-] the same of the correction before the last */
-    uint32_t at_rounding; /* consecutive iterations whose residual is at the rounding level */
-    uint32_t reserved;
+    double residual;       /* [-] relative, last */
+    double moved;          /* [-] largest component of the last correction, in length scales */
+    double moved_before;   /* [-] the same of the correction before the last */
+    uint32_t at_rounding;  /* consecutive iterations whose residual is at the rounding level */
+    int32_t slides;        /* 1: the solution slides a string along its hole, with a message */
     double caution;        /* [-] divisor of the correction size in the relaxation */
     double gimbal_margin;  /* [-] 1 - cos RZ, largest so far of joints whose RX and RY are needed; 0: none */
     uint32_t gimbal_joint; /* index of that joint */
@@ -243,7 +243,7 @@ int32_t dmb_static_revert(dmb_static_search *search);
 
 /* Sets the message of a failed analysis: the part, the value with its bound, and the remedy. */
 void dmb_static_explain(dmb_static_search *search, int32_t status);
-/* 1, with a message, if a string slid along its hole to a place far from the described one. */
+/* 1, with a message, if the trial slides a string along its hole to a place far from the starting pose. */
 int dmb_static_note_slide(dmb_sim *sim);
 
 /* Options of the static analysis, checked. */

@@ -37,14 +37,17 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     }
 }
 
-/* A string that slides further than this part of its length does not rest where it was described. */
+/* A string that slides further than this part of its length does not rest where it was. */
 #define DMB_SLID 0.1
 
 /* [m] by which the rig end of a string that nothing holds along its hole slid there. */
 static double slide(const dmb_sim *sim, const dmb_string_map *string)
 {
+    const size_t at = 3 * (size_t)string->start_node;
+    double way[3];
     if (is_constrained(sim->scene, string, DMB_X)) return 0.0;
-    return dmb_vec3_norm(sim->now.displacement + 3 * (size_t)string->start_node);
+    dmb_vec3_sub(sim->trial.displacement + at, sim->now.displacement + at, way);
+    return dmb_vec3_norm(way);
 }
 
 int dmb_static_note_slide(dmb_sim *sim)
