@@ -130,15 +130,15 @@ class ShippedTest(FolderTest):
         from drillmbd.scene.words import describe
         text = ('hole = {diameter = "94 mm"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\nbit = {load = '
                 '"%s"}\ndrive = {component = "x", time_function = "%s"}\n')
-        for load, feed, told, weight, speed in (
+        for load, feed, expected, weight, speed in (
                 ("8 kN", "10 mm/s", [], 8e3, 0.01),
                 ("-8 kN", "10 mm/s", ["the load on the bit falls to -8 kN"], 0.0, 0.01),
                 ("8 kN", "-10 mm/s", ["the feed of -10 mm/s pulls"], 8e3, 0.0), ("0 kN", "-10 mm/s", [], 0.0, 0.0),
                 ("8 kN", "2 m/s", ["feed of up to 2 m/s"], 8e3, 2.0), ("8 kN", "0 mm/s", [], 8e3, 0.0)):
             made = scene.loads(text % (load, feed))
             found = [one for one in warnings_of(made) if "the load on" in one or "feed of" in one]
-            self.assertEqual(len(found), len(told), (load, feed, found))
-            for one, part in zip(found, told):
+            self.assertEqual(len(found), len(expected), (load, feed, found))
+            for one, part in zip(found, expected):
                 self.assertIn(part, one)
             plan = operating(made)
             self.assertEqual((plan.weight_on_bit, plan.feed), (weight, speed))
@@ -152,12 +152,12 @@ class ShippedTest(FolderTest):
         from drillmbd.scene.warned import warnings_of
         text = ('hole = {diameter = "%s"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\n'
                 'bit = {diameter = "%s"}\n')
-        for hole, bit, told in (("94 mm", "92 mm", None), ("94 in", "92 mm", "the bit of 92 mm is narrow"),
+        for hole, bit, expected in (("94 mm", "92 mm", None), ("94 in", "92 mm", "the bit of 92 mm is narrow"),
                                 ("190 mm", "92 mm", "the bit of 92 mm is narrow"), ("180 mm", "92 mm", None),
                                 ("94 in", "0 mm", "pipes of 73 mm are narrow"), ("500 mm", "0 mm", None)):
             found = [one for one in warnings_of(scene.loads(text % (hole, bit))) if "narrow" in one]
-            self.assertEqual(len(found), int(told is not None), found)
-            self.assertTrue(told is None or told in found[0], found)
+            self.assertEqual(len(found), int(expected is not None), found)
+            self.assertTrue(expected is None or expected in found[0], found)
 
     def test_load_that_nothing_bears(self):
         """A load on the bit without a drive along the string pushes it out of the hole, in `run` with status 0."""

@@ -223,7 +223,7 @@ class SurveyTest(unittest.TestCase):
     def test_columns_against_the_heads_of_the_file(self):
         """survey_columns that name fewer columns than the file has, or another unit than its heads."""
         rows = "No,MD (ft),Drift,Dir,By\n1,0,80,10,x\n2,60,82,11,x\n3,120,84,12,x\n"
-        for columns, told in (('"", "depth [ft]", "inclination [deg]", "azimuth [deg]", ""', []),
+        for columns, expected in (('"", "depth [ft]", "inclination [deg]", "azimuth [deg]", ""', []),
                               ('"", "depth [m]", "inclination [deg]", "azimuth [deg]", ""',
                                ["column 2 (MD (ft)) is read in m, as survey_columns says"]),
                               ('"", "depth [ft]", "inclination [deg]", "azimuth [deg]"',
@@ -232,8 +232,8 @@ class SurveyTest(unittest.TestCase):
                                ["depth is column 1 (No), inclination is column 2 (MD (ft)), azimuth is column 3"])):
             found = [one.text for one in load("s.csv", rows, f"survey_columns = [{columns}]").remarks
                      if "bends by" not in one.text and "tie-in" not in one.text]
-            self.assertEqual(len(found), len(told), found)
-            for one, part in zip(found, told):
+            self.assertEqual(len(found), len(expected), found)
+            for one, part in zip(found, expected):
                 self.assertIn(part, one)
 
     def test_remarks(self):

@@ -39,7 +39,7 @@ ABOUT_OF = {("DriveDef", "time_function"): 'required: the name of a time functio
                                         "Required for the set point of a motion drive: largest acceleration"}
 
 
-#: Names of C in the texts of the headers, and what a scene file has for them.
+#: C names in the header comments, and the words of scene files that replace them.
 WORDS_OF = {"not there without FEATURE_": "not there without the feature FEATURE_", "of CONTACT_": "of contact = CONTACT_",
             "of SCALE_": "of scale = SCALE_", "X .. RZ": "x .. RZ", "X (feed": "x (feed", "or _END:": 'or "end":',
             "default NOT_GIVEN": "left out: that of [hole]",
