@@ -7,6 +7,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 from unittest import mock
@@ -391,6 +392,21 @@ class EndTest(FolderTest):
         self.scene.write_text(self.scene.read_text().replace('"1 mm"', '"2 mm"'))
         self.ask(*words[:-1], "30 kN")
         self.assertEqual(self.summary()["kept"], 0)
+
+    def test_interrupted_imports(self):
+        """Ctrl-C within the import of a package that catches everything ends the command all the same."""
+        from drillmbd._optional import need
+        self.write("swallows.py", "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\n"
+                                  "    sum(range(10**5))\nexcept BaseException:\n    raise ValueError\n")
+        usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.path.insert(0, str(self.folder))
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                need("swallows")
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        finally:
+            sys.path.remove(str(self.folder))
+            signal.signal(signal.SIGINT, usual)
 
     def test_interrupted_processes(self):
         """Real processes in the middle of long analyses end within seconds."""

@@ -1,9 +1,12 @@
 """Packages that are used where they are there: numpy for arrays, pandas for frames, matplotlib for plots."""
 from __future__ import annotations
 
+import contextlib
 import importlib
+import signal
 import sys
-from typing import Any
+import threading
+from typing import Any, Iterator
 
 try:
     import numpy as _numpy
@@ -18,10 +21,28 @@ DEBIAN = {"numpy": "python3-numpy", "pandas": "python3-pandas", "matplotlib.pypl
           "mpi4py.futures": "python3-mpi4py", "distributed": "python3-distributed"}
 
 
+@contextlib.contextmanager
+def _interrupted_behind() -> Iterator[None]:
+    """Ctrl-C within the block has its effect behind it: matplotlib takes one within its import for a bad value."""
+    usual = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or usual is not signal.default_int_handler:
+        yield
+        return
+    came: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, frame: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    if came:
+        raise KeyboardInterrupt
+
+
 def need(name: str) -> Any:
     """The module. Raises ImportError that says how it is installed."""
     try:
-        return importlib.import_module(name)
+        with _interrupted_behind():
+            return importlib.import_module(name)
     except ImportError as error:
         raise ImportError(f"{name} is needed for this and was not found by {sys.executable}: pip install "
                           f"{name.split('.')[0]}, or "
