@@ -155,7 +155,8 @@ static double size_of_correction(const dmb_sim *sim)
 enum { DMB_CORRECTIONS_MAX = 12 };
 
 /* One correction and the memory fields linear in it; the residual of constrained rows is updated with their rows of the
- * matrix. */
+ * matrix. One correction suffices because residual and matrix are exact: the follower is linear in its difference to
+ * the leader, and what is left is of second order in it. */
 static int32_t correct_once(companion *of)
 {
     dmb_sim *sim = of->sim;
@@ -274,6 +275,8 @@ static int32_t end_bounces(companion *of)
     return DMB_OK;
 }
 
+/* Starts from the leader's increments, not from the follower's prediction: the difference of both solutions is all that
+ * the corrections have to find. */
 static int32_t follow(companion *of)
 {
     int32_t status = predict(of);

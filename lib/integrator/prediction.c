@@ -1,3 +1,13 @@
+/* Choice between the constant prediction, v1' = v0', and the linear one, which continues the acceleration
+ * (eq:integration.prediction). The linear one is tried under the conditions of may_be_linear; after each accepted step:
+ *
+ *     the step                                             next steps
+ *     --------------------------------------------------   ----------------------------------------------------------
+ *     linear, fewer iterations than the last constant one  linear
+ *     linear, not fewer                                    constant for 1, 3, 7, ... 31 steps, then linear again
+ *     contacts changed, repeated from the constant one     the same
+ *     constant                                             its iterations are the measure for the linear one; the wait
+ *                                                          shortens by one step */
 #include "integrator/prediction.h"
 
 #include "kernel/kernels.h"
@@ -27,6 +37,8 @@ void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial
     dmb_step_motion_predict(sim, c, trial_step->end.step, trial_step->linear ? 1.0 / (c->am - c->af) : 0.0);
 }
 
+/* dmb_prediction_make has left the difference of the increments to those of the constant prediction in sim->correction.
+ * Its inertia beta' M dz is the residual that the constant prediction would begin with where inertia dominates. */
 double dmb_prediction_saved(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     const dmb_scene *scene = sim->scene;
@@ -35,6 +47,8 @@ double dmb_prediction_saved(dmb_sim *sim, const dmb_trial_step *trial_step)
     return scene->kernels->product(scene->row_count, sim->correction, sim->residual);
 }
 
+/* A step that needed more than three iterations from the constant prediction suspends the linear one without a wait:
+ * the condition is on the most recent constant step alone. */
 void dmb_prediction_note(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     dmb_prediction *p = sim->prediction;

@@ -73,7 +73,11 @@ static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t 
            dmb_actuators_may_jump(scene);
 }
 
-/* Recomputes the accelerations if forces or the rate of a time function jump at the time reached; *jumped: they do. */
+/* Recomputes the accelerations if forces or the rate of a time function jump at the time reached; *jumped: they do.
+ * Stuck places and the hole change the equations, commands and prescribed rates only their right side; one solution for
+ * the accelerations serves all of them. It runs callbacks while accelerations and forces do not belong together, so
+ * that queries are refused meanwhile. A released place removes its spring from the iteration matrix: factors made with
+ * it are discarded. */
 static int32_t stepping_breakpoint(dmb_sim *sim, int32_t rate_jumps, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
@@ -87,9 +91,19 @@ static int32_t stepping_breakpoint(dmb_sim *sim, int32_t rate_jumps, int *jumped
     return status;
 }
 
-/* Accepts the step. The state is backed up first, unless this call has backed it up before. If a callback may still
- * fail, factors are kept only after the last callback, and are discarded if the accelerations were recomputed with
- * others; after a failure, the factors made by this step are discarded. */
+/* Accepts the step: trial becomes now, then the accelerations restart if something jumps at the time reached.
+ *
+ *     order                                         on failure
+ *     -------------------------------------------   --------------------------------------------------------------
+ *     1. may_jump: is a restart possible?           nothing has changed yet
+ *     2. back up the state, if so and if this call
+ *        has no backup                              (cannot fail)
+ *     3. commit                                     (cannot fail)
+ *     4. restart of the accelerations               state from the backup (of the call: dmb_stepping_end restores it),
+ *                                                   factors made by this step are discarded
+ *
+ * Most steps end at step 3 without the copy of the state. If a callback may still fail in 4, factors are kept only
+ * after it (DMB_KEEP_AFTER_JUMP), and not at all if the accelerations were recomputed. */
 static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     const dmb_factor_reuse kept = *sim->reuse;
@@ -113,6 +127,8 @@ static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *st
     return status;
 }
 
+/* A companion looks at the step first, while now and trial are both complete: its refusal then leaves the state as it
+ * was. */
 int32_t dmb_stepping_commit(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     if (sim->follower != NULL) {
@@ -178,6 +194,15 @@ int32_t dmb_stepping_stops(dmb_sim *sim, double time, const dmb_stepping *steppi
     return stepping->report.steps == sim->options.max_steps;
 }
 
+/* Status of the call, the first that applies:
+ *
+ *     cancelled, steps kept (dmb_sim_advance)     DMB_NOTE_CANCELLED
+ *     failure                                     the failure; state and counters as before the call if it restores
+ *                                                 or accepted no step
+ *     stopped by the caller, or by max_steps      DMB_NOTE_STOPPED: the requested time was not reached
+ *     work limit reached in some step             DMB_NOTE_WORK_LIMITED
+ *     error above the tolerance at step_min       DMB_NOTE_TOLERANCE
+ *     the requested step was divided              DMB_NOTE_STEP_CUT */
 int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report,
                          const dmb_stepping *stepping)
 {
@@ -236,7 +261,9 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
 /* [s] Longer steps are mistakes; their division at breakpoints by halving would not end. */
 #define DMB_DURATION_MAX 1e18
 
-/* End of the next substep: at most `cut` long, not beyond a breakpoint, and without a sliver before the end. */
+/* End of the next substep: at most `cut` long, not beyond a breakpoint, and without a sliver before the end. With
+ * bounded_work the step is never divided; a breakpoint inside it is passed on to the drives, which integrate over it.
+ */
 static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double cut)
 {
     if (sim->options.bounded_work) return dmb_step_end_on_breakpoint(dmb_step_end_over_breakpoints(sim, goal));
@@ -245,7 +272,11 @@ static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double
     return dmb_step_end_after(sim, cut);
 }
 
-/* Takes one accepted substep of at most `cut`, halved after each failure. */
+/* Takes one accepted substep of at most `cut` [s], halved after each failure. `cuts` counts the halvings in force, not
+ * all that were made: each accepted substep undoes one by doubling the length, and without one in force the next
+ * substep goes to the end of the requested step. The state is backed up before the first substep that does not end the
+ * call: a single step that fails has written the trial only. A step that is shortened to the release of a stuck place
+ * no longer ends the call, hence the second place where the backup is made. */
 static int32_t advance_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts,
                                dmb_stepping *stepping)
 {
@@ -421,7 +452,8 @@ double dmb_advance_first(const dmb_sim *sim)
     return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
 }
 
-/* A step of about h that ends neither beyond `time` nor beyond a breakpoint, and leaves no sliver. */
+/* A step of about h that ends neither beyond `time` nor beyond a breakpoint, and leaves no sliver. If more than half of
+ * the distance is wanted, the distance is halved: two equal steps instead of one and a short rest. */
 static dmb_step_end fit(const dmb_sim *sim, double h, double time)
 {
     const dmb_step_end goal = dmb_step_end_at(sim, time);
@@ -444,6 +476,10 @@ void dmb_advance_propose(dmb_sim *sim, double wanted)
     sim->clock->next_step = wanted;
 }
 
+/* A step without a solution has no error estimate: it is quartered. A result at the work limit counts as such a step,
+ * because eq:integration.local-error supposes that the equations of the scheme are satisfied. Whether a step is
+ * accepted depends on its own error, the length of the next on the error ahead. At step_min the step is accepted with
+ * any error, so that the call always comes to an end; DMB_NOTE_TOLERANCE reports it. */
 int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_stepping *stepping)
 {
     dmb_trial_step trial_step;

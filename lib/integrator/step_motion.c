@@ -1,7 +1,20 @@
-/* Formulas of generalized-alpha by rows (eq:integration.recursion, eq:integration.newmark), in chunks of nodes:
- *     predict   v1' from the history, a1, then v1 and z = h Dq
- *     correct   v += gamma' dz, v' += beta' dz, a += dz/(h^2 beta), z += dz (eq:integration.factors)
- * Free rigid bodies use them at their centres of mass, rotors in axes that do not spin with them. */
+/* Formulas of generalized-alpha by rows, in chunks of nodes. With the pseudo-accelerations a0 at the start (carried to
+ * the length of the step, eq:integration.carry) and a1 at the end:
+ *
+ *     predict   v1' = v0' + slope (a0 - v0')                             eq:integration.prediction; slope 0: constant
+ *               a1  = (v0' - am a0)/(1 - am)                             eq:integration.recursion with v1' = v0'
+ *               z   = h v0 + h^2 (1/2 - beta) a0 + h^2 beta a1           eq:integration.newmark
+ *               v1  = v0 + h (1 - gamma) a0 + h gamma a1
+ *               and for slope != 0 the changes by v1' - v0':  a1 by (1 - af)/(1 - am), z by 1/beta' of it
+ *     correct   z += dz,  v1 += gamma' dz,  v1' += beta' dz,             eq:integration.factors
+ *               a1 += dz/(h^2 beta)
+ *
+ *     rows                          motion that the formulas act on
+ *     ---------------------------   -------------------------------------------------------------------------
+ *     nodes, no joints in scene     the trial itself
+ *     nodes, joints in the scene    raw_ fields: the motion before its projection onto the constraints
+ *     free rigid bodies             at the centre of mass (eq:integration.free-rigid)
+ *     rotors                        in axes that do not spin with them (eq:motion.rotor-step) */
 #include "integrator/step_motion.h"
 
 #include "kernel/kernels.h"
@@ -41,6 +54,9 @@ static void predict(void *work, uint32_t first, uint32_t end)
     rows->kernels->predict(&args);
 }
 
+/* a_from_change and z_from_change are da1/dv1' = (1 - af)/(1 - am) and dz/dv1' = 1/beta'
+ * (eq:integration.prediction-increment). Prescribed rows follow their drive whatever the prediction: their change is 0.
+ */
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h, double slope)
 {
     const double whole = 1.0 - c->am;
@@ -76,6 +92,8 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
                         sim->scene->constrained_component[i]] = 0.0;
 }
 
+/* dmb_system_prescribe writes the trial; in scenes with joints, Newton corrects the raw motion, which the projection
+ * reads. */
 void dmb_step_motion_keep_prescribed(dmb_sim *sim)
 {
     const dmb_step_motion to = dmb_step_motion_of(sim);
@@ -104,6 +122,8 @@ static void correct(void *work, uint32_t first, uint32_t end)
     if (nodes->place) dmb_system_move_nodes(nodes->sim, first, end);
 }
 
+/* Nodes are placed chunk by chunk while their rows are in the cache. With free rigid bodies this has to wait: the
+ * increments of their nodes follow from the motion of the centre of mass. */
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
     const double to_a = 1.0 / (h * h * c->beta);

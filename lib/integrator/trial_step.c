@@ -36,6 +36,8 @@
 /* [-] Violation, over the length of the parts, at which an equation dropped as redundant has become independent. */
 #define DMB_DROPPED_VIOLATION 1e-7
 
+/* [m, rad] Tolerance of row k of a node with `size` rows: the first half are translations (u of six, the speed along
+ * the hole of two), the second half rotations. */
 static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)
 {
     return 2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
@@ -98,6 +100,7 @@ static void add_node(const dmb_sim *sim, double ratio, uint32_t node, motion_nor
     }
 }
 
+/* a0 in the difference a1 - a0 is the one that the step began with, carried to its length (eq:integration.carry). */
 static motion_norms norms_of(const dmb_sim *sim, double h)
 {
     const dmb_scene *scene = sim->scene;
@@ -151,7 +154,9 @@ void dmb_trial_step_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation
 
 /* Repeats the step from the increments found so far with the effect of opening contacts removed from its history: v0'
  * and a0 less M^-1 times their forces, and a0 - v0' = 0 at their nodes from then on, because it would oscillate in free
- * flight (eq:contact.release). */
+ * flight (eq:contact.release). Newton starts from the increments of the step with the contact: they are closer to the
+ * solution than the prediction. The companion stores them, because it repeats both iterations (integrator/companion).
+ */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     if (sim->follower != NULL) sim->follower->open(sim->follower->context);
@@ -199,7 +204,8 @@ static int32_t carry(dmb_sim *sim, const dmb_trial_step *trial_step)
     return 1;
 }
 
-/* Repeats the step without the forces of contacts that open, and again for those that open by that. */
+/* Repeats the step without the forces of contacts that open, and again for those that open by that. Repetitions end
+ * with the fourth even if a further contact opens in it; its force is then left to the scheme. */
 static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
@@ -250,6 +256,10 @@ static int32_t run_stages(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
     return run_stage(sim, c, own, trial_step);
 }
 
+/* The stages, then the final checks of the head comment in its order. Factors are kept only from a step that is the
+ * whole call (`sole`) and has no joints: after a later failure of the call they would belong to a state that does not
+ * exist. Revolutions are counted at last, from the increments of the step (dmb_system_unwrap), which a failed element
+ * check makes meaningless. */
 static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t sole, dmb_trial_step *trial_step)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
@@ -303,7 +313,17 @@ static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
 }
 
 /* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) for the length of the step at which the largest force
- * equals its release force. Each evaluation is a trial step, so that the result does not depend on interpolation. */
+ * equals its release force. Each evaluation is a trial step, so that the result does not depend on interpolation.
+ * Bracket: force below its release force at the length `low`, above at `high`; a place that is at its limit at the
+ * start does not shorten the step. Trial lengths keep a thousandth of the bracket from its ends. The step returned ends
+ * at `high`, at or beyond the release: if the last trial was the lower end, it is repeated.
+ *
+ *     f/F - 1
+ *         |              . high
+ *         |          .
+ *       0 +------x----------------> length of the step
+ *         | .
+ *         |low */
 int32_t dmb_trial_step_to_release(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     double low = 0.0, high = trial_step->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
@@ -337,6 +357,9 @@ int32_t dmb_trial_step_to_release(dmb_sim *sim, dmb_trial_step *trial_step)
     return dmb_trial_step_run(sim, &end, 0, trial_step);
 }
 
+/* Results that depend on both ends of the step (drives, factors, ledger) are stored before the exchange of now and
+ * trial. The ledger reads the powers of the step's own forces; dmb_bounces_accept then replaces them and the
+ * accelerations by those from which the next step starts. */
 void dmb_trial_step_commit(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     dmb_counters *counters = sim->counters;
@@ -382,6 +405,8 @@ static double turned_apart(const dmb_sim *sim, uint32_t a)
     return dmb_vec3_norm(apart);
 }
 
+/* Bounds in the order of their cost: with the largest rotation of each chunk (only without joints, whose projection
+ * moves nodes after it was stored), with the rotations of both nodes, with their relative rotation. */
 uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

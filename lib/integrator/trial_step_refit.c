@@ -1,6 +1,13 @@
 /* Motion at the end of a repeated step, from the increments found so far and a history without the contacts that open
  * (eq:contact.release): a1 from eq:integration.newmark solved for it, v1' from eq:integration.recursion, v1 from both.
- */
+ * The increment z is kept and determines a1, which determines v1' and v1. At the start, v' has lost M^-1 times the
+ * removed forces and a - v' the fraction of the step after the opening:
+ *
+ *     body                     rows that the formulas act on              state at the start
+ *     ----------------------   ----------------------------------------   ----------------------------------------
+ *     node                     its own, without prescribed ones           now
+ *     free rigid body          of its centre of mass                      eq:integration.free-rigid
+ *     rotor                    in axes that do not spin with it           eq:motion.rotor-step */
 #include "integrator/step_motion.h"
 #include "integrator/trial_step.h"
 #include "sim/chunks.h"
@@ -12,7 +19,9 @@ typedef struct start {
     double z, v, dv, a0;
 } start;
 
-/* Motion of row i at the end of the step. */
+/* Motion of row i at the end of the step, from eq:integration.newmark and eq:integration.recursion:
+ *     a1  = ((z - h v0)/h^2 - (1/2 - beta) a0)/beta
+ *     v1' = ((1 - am) a1 + am a0 - af v0')/(1 - af) */
 static void refit(const dmb_generalized_alpha *c, double h, const start *s, const dmb_step_motion *to, uint32_t i)
 {
     const double z = s->z, v = s->v, dv = s->dv, a0 = s->a0;

@@ -100,6 +100,8 @@ static void exchange(dmb_evaluation *evaluation, uint32_t u, const dmb_unilatera
     for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->bounce_kick[i] += impulse * sim->correction[i];
 }
 
+/* Factors of the mass matrix at the trial (mass factor 1, velocity factor 0), with which the exchanged forces become
+ * accelerations. */
 static int32_t factor_mass(const dmb_evaluation *evaluation, dmb_evaluation *mass)
 {
     *mass = *evaluation;
@@ -124,6 +126,9 @@ typedef struct site_step {
     double mean, taken;
 } site_step;
 
+/* own is the force at the end of the step by which the step has its mean force: own_factor G = G/g', with friction of
+ * the law under it (eq:contact.mean). With a mean force G* in the history the end has G* + (G - G*)/g'
+ * (eq:contact.gain); `carried` is -G*. */
 static void site_step_of(const dmb_evaluation *evaluation, uint32_t s, site_step *to)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -315,6 +320,8 @@ void dmb_bounces_add_accelerations(const dmb_sim *sim, double *acceleration)
     for (uint32_t i = 0; i < sim->scene->row_count; i++) acceleration[i] += taken_of(sim)[i] + given_of(sim)[i];
 }
 
+/* By eq:integration.recursion the removed forces of the step entered a with pseudo_factor of what they added to v'. The
+ * added forces of the law are in both alike, as at a restart with a = v'. */
 static void take_accelerations(dmb_sim *sim, double pseudo_factor)
 {
     dmb_bounces_add_accelerations(sim, sim->trial.acceleration);
@@ -411,6 +418,7 @@ static void accept_sites(const dmb_evaluation *evaluation, int32_t found)
     }
 }
 
+/* A negative age marks a law whose mean force continues in the next step (dmb_bounces_begin). */
 static void accept_laws(const dmb_evaluation *evaluation, int32_t found)
 {
     dmb_sim *sim = evaluation->sim;
@@ -427,6 +435,7 @@ static void accept_laws(const dmb_evaluation *evaluation, int32_t found)
     }
 }
 
+/* Accelerations first: powers and ages are those of the state from which the next step starts. */
 void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found)
 {
     if (found) take_accelerations(evaluation->sim, evaluation->pseudo_factor);

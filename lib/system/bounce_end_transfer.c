@@ -10,6 +10,8 @@
 #include "system/assemble/bounces.h"
 #include "system/solve/solve.h"
 
+/* 1: the contact is in the middle of a bounce: closed, with a mean force in the next step or weights of touch that are
+ * still short of time (DMB_TOUCH_EXCESS, eq:touch.time). */
 static int site_goes_on(const dmb_sim *sim, uint32_t s)
 {
     if (!(sim->now.site_penetration[s] > 0.0)) return 0;
@@ -26,7 +28,7 @@ static int any_goes_on(const dmb_sim *sim)
     return 0;
 }
 
-/* 1: some contact has touched in the last step. */
+/* 1: some contact has touched in the last step. Such a contact may have had a mean force in that step. */
 static int any_touched(const dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
@@ -108,6 +110,8 @@ static void press_all(dmb_evaluation *evaluation)
         if (sim->bounce_age[u] < 0.0) press_law(evaluation, u);
 }
 
+/* v' of the restart contains the forces of all laws: M^-1 of those that the next step applies as mean forces, and of
+ * the damping that touch still withholds, is subtracted from v' and a alike. Reactions stay those of the last step. */
 int32_t dmb_bounces_go_on(dmb_sim *sim, const dmb_sim *from, int32_t *found)
 {
     dmb_evaluation mass;

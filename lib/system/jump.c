@@ -37,6 +37,7 @@ static int opens(const dmb_sim *sim, uint32_t s)
     return !(sim->trial.site_penetration[s] > 0.0);
 }
 
+/* A contact point also changes if its normal turns by more than 26 degrees (cosine 0.9) within the step. */
 int32_t dmb_contact_changes(const dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
@@ -100,7 +101,9 @@ static void gather_released(const dmb_evaluation *evaluation, dmb_evaluation *ma
 }
 
 /* a = M^-1 sum of part times force over the opening contact points: the acceleration that the history of
- * generalized-alpha would carry as if the contact still pressed (eq:contact.release). */
+ * generalized-alpha would carry as if the contact still pressed (eq:contact.release). The evaluation of the mass matrix
+ * has mass factor 1 and velocity factor 0: its iteration matrix is M. With joints the solution is in the independent
+ * coordinates, so that the removed accelerations satisfy B a = 0. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part)
 {
     dmb_sim *sim = evaluation->sim;
@@ -156,6 +159,8 @@ void dmb_stuck_lose(dmb_sim *sim, double before)
     if (sim->options.energy_ledger) dmb_ledger_add_impact(sim, 0.0, before - dmb_stuck_energy(sim, &sim->now));
 }
 
+/* Several places may reach their limit in one step. Their springs are removed together, and the energy stored in them
+ * is counted once. */
 uint32_t dmb_stuck_let_go(dmb_sim *sim)
 {
     const double stored = dmb_stuck_energy(sim, &sim->now);
@@ -212,7 +217,8 @@ static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)
     return DMB_OK;
 }
 
-/* Evaluates the rows at now; equations that become active must be nearly satisfied, and frames must not be flipped. */
+/* Evaluates the rows at now; equations that become active must be nearly satisfied, and frames must not be flipped. A
+ * joint whose parts are apart is refused, not pulled together. */
 static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
 {
     dmb_sim *sim = evaluation->sim;
@@ -281,6 +287,16 @@ static void copy_forces(dmb_sim *sim)
     dmb_drives_copy_motion(sim);
 }
 
+/* Order, each on the result of the one before:
+ *
+ *     1. new state of the joint; equations that become active must be satisfied to DMB_CLOSING_VIOLATION (check_fit)
+ *     2. new partition, since the set of rows is another
+ *     3. poses by the shortest move (at most that violation), speeds by the shortest change (eq:joints.projection)
+ *     4. speeds by the change of least kinetic energy (eq:joints.impulse)
+ *     5. the energy lost is booked as impact
+ *     6. consistent accelerations, multipliers and drive forces
+ *
+ * The state is backed up by dmb_joint_switch and restored if any of them fails. */
 static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
 {
     const double stored = potential(sim);

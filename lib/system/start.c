@@ -23,6 +23,8 @@
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
+/* Pose and velocity as described, at zero displacement: displacements are counted from the described pose, so that they
+ * keep their digits far from the origin. The memory of contacts starts there too. */
 static void described_pose(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -34,7 +36,9 @@ static void described_pose(dmb_sim *sim)
     dmb_contacts_start(sim);
 }
 
-/* Constrained rows move as prescribed by their drive, or not at all; the largest correction is recorded. */
+/* Constrained rows move as prescribed by their drive, or not at all; the largest correction is recorded. Supports and
+ * drives of nodes are rows of their own, not constraints: they are satisfied by assignment, before the projection onto
+ * the joints (settle_speeds), which leaves such columns unchanged. */
 static void project_speeds(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -73,7 +77,9 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* Solves M v' = sum of the other forces (eq:joints.accelerations). */
+/* Solves M v' = sum of the other forces (eq:joints.accelerations). The mass matrix is the tangent of the residual by
+ * v', and the residual is linear in it: one correction from any admissible v' is the solution. The last evaluation
+ * computes forces, powers and multipliers with it. */
 static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     const int32_t status = dmb_factor_mass(evaluation);
@@ -133,7 +139,9 @@ static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
 }
 
 /* Accelerations of the trial consistent with its pose and speeds, forces of motion drives, and powers of the
- * evaluation. */
+ * evaluation. Order: speeds and accelerations onto the constraints, which gives an admissible v'
+ * (eq:joints.velocity-partition); the solution in the independent coordinates; multipliers from the forces that it
+ * leaves. */
 static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     int32_t status = settle_speeds(sim, evaluation);
@@ -144,6 +152,8 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     return DMB_OK;
 }
 
+/* Sets the trial to the accepted state without accelerations, and prescribes motions and loads at the present time. All
+ * that follows writes trial and work fields, so that a failure leaves the accepted state as it was. */
 static int32_t present(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     set_up(sim, evaluation);
@@ -152,6 +162,9 @@ static int32_t present(dmb_sim *sim, dmb_evaluation *evaluation)
     return constrained_speeds(sim, evaluation);
 }
 
+/* Order: gimbal check, since angles are not defined at the singularity, prescribed speeds, a new partition for the
+ * pose, accelerations. On success contacts count as lasting, the step control begins again (clock.step = 0: a0 = v',
+ * eq:integration.carry), and the ledger starts at zero. */
 int32_t dmb_system_restart(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
@@ -199,7 +212,9 @@ int32_t dmb_system_jump(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Closes the joints; fails if that strains elements beyond rounding, unless the caller permits it. */
+/* Closes the joints; fails if that strains elements beyond rounding, unless the caller permits it. Rigid moves come
+ * first in the assembly (system/constrain/cluster_assembly): energy is stored only if the described parts do not fit
+ * without strain. */
 static int32_t close_joints(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -217,6 +232,16 @@ static int32_t close_joints(dmb_sim *sim)
     return DMB_ERR_GEOMETRY;
 }
 
+/* Order:
+ *
+ *     1. described pose, contacts, rock surfaces     contacts search the hole's axis from their described depths
+ *     2. joints are closed                           moves nodes, so that contacts search again
+ *     3. stuck places                                their anchors are the closed pose
+ *     4. consistent accelerations (restart)
+ *     5. tangents of the caller's forces are         needs a complete state
+ *        compared with differences
+ *
+ * DMB_NOTE_PROJECTED reports moved parts and, if none moved, changed speeds; 1e-12 m or m/s is rounding. */
 int32_t dmb_system_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -25,7 +25,13 @@ static dmb_delay_line line_of(const dmb_sim *sim, const dmb_actuator_law *law)
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
 /* Writes the delayed command at the end of the step into flow, and that at its start to *u0; returns d delayed/d
- * command. In a step longer than the delay the command is interpolated linearly between start and end. */
+ * command. In a step longer than the delay the command is interpolated linearly between start and end. Commands are
+ * known at the ends of steps. A delayed command that was given before the step is read from the line; one that was
+ * given within it depends on the command of this step, which is the only case in which its derivative is not 0.
+ *
+ *     time    -----+-------------------+------------------>
+ *                begin                end
+ *                  |<-- delay -->|            part = (end - delay - begin)/h > 0: interpolated */
 static double delay(const dmb_evaluation *evaluation, const dmb_actuator_law *law, const dmb_actuator_flow *from,
                     dmb_actuator_flow *flow, double *u0)
 {
@@ -44,6 +50,9 @@ static double delay(const dmb_evaluation *evaluation, const dmb_actuator_law *la
     return part;
 }
 
+/* Order along the signal: command, delay, rate limit and lag, torque-speed curve and limits, drag (eq:drive.actuator,
+ * eq:drive.lag). The slope is multiplied along the same way. Without a state (statics, or before the first one) the
+ * flow takes the steady value, the command itself. */
 double dmb_actuator_force(const dmb_evaluation *evaluation, uint32_t drive, double command, double speed, double *slope)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -96,6 +105,7 @@ void dmb_actuators_copy_flow(dmb_sim *sim)
     if (count > 0) memcpy(sim->now.actuator, sim->trial.actuator, count * sizeof(dmb_actuator_flow));
 }
 
+/* Statics have no past: the line is filled with the present command, as if it had always been given. */
 void dmb_actuators_accept(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -131,6 +141,7 @@ int32_t dmb_actuators_may_jump(const dmb_scene *scene)
     return 0;
 }
 
+/* A lag or a rate limit makes a delayed jump continuous; without them accelerations have to be computed again. */
 int32_t dmb_actuators_jump(const dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->actuator_count; i++) {

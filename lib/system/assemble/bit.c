@@ -1,4 +1,15 @@
-/* Bits: bottom-hole load and rock law, along and about the axis of the hole (eq:bit.forces). */
+/* Bits: bottom-hole load and rock law, along and about the axis of the hole (eq:bit.forces), and cutting sideways
+ * (eq:bit.side).
+ *
+ *     motion      U [m] advance of the reference point along the axis since time 0, V its rate, Phi [rad] angle of the
+ *                 node, Omega [rad/s] its spin
+ *     force       -(load + W) along the axis at the reference point, -T about the x axis of the node
+ *
+ *     state of the evaluation                           law
+ *     -----------------------------------------------   ---------------------------------------------------------
+ *     a step                                            rock law with the surface of the accepted state
+ *     steady, bit marked in `drilling`                  rock law on the surface of steady drilling
+ *     statics, or steady and not marked                 the load alone */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -16,7 +27,8 @@ typedef struct bit_motion {
 } bit_motion;
 
 /* Axis of the hole at the bit, world frame; without a hole the axis of its initial pose. Returns the advance [m] since
- * time 0. */
+ * time 0. In a straight hole, or without one, the advance is a scalar product of the displacement, without the digits
+ * that the difference of two positions would lose. */
 static double locate(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_bit *bit, const double R[9],
                      uint32_t *segment, double tangent[3])
 {
@@ -63,6 +75,7 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const 
     m->speed = dmb_vec6_dot(m->along, v);
 }
 
+/* A view of the ring buffer of the rock surface over the angle (eq:bit.regenerative); keep_history stores its head. */
 dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t k)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -85,6 +98,7 @@ static void keep_history(dmb_sim *sim, uint32_t k, const dmb_bit_history *h)
     sim->history_head[k].offset = h->offset;
 }
 
+/* The history is that of the accepted state: within a step no blade meets what it cuts in the same step. */
 static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion *m, dmb_bit_rock_result *out)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -126,7 +140,9 @@ static double steady_cut(const dmb_scene_bit *bit, double speed, double spin)
     return speed > 0.0 && spin > 0.0 ? DMB_TWO_PI * speed / (spin * bit->law.blades) : 0.0;
 }
 
-/* In steady drilling the force depends on speeds alone: places the rock surface one steady cut ahead of the bit. */
+/* In steady drilling the force depends on speeds alone: places the rock surface one steady cut ahead of the bit. Two
+ * samples are enough for a surface that is linear in the angle. Its derivatives by U and Phi are 0, because in steady
+ * drilling the surface moves with the bit. */
 static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_motion *m, dmb_bit_rock_result *out)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -236,7 +252,8 @@ static void side_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t
     dmb_side_force_at(&bit->side, v, at[3], side);
 }
 
-/* C = D/w (Jy (cos Jy + sin Jz) + Jz (cos Jz - sin Jy)), less the force by the spin. */
+/* C = D/w (Jy (cos Jy + sin Jz) + Jz (cos Jz - sin Jy)), less the force by the spin. J_y, J_z: rows of the velocity
+ * across the axis (side_of), D/w the coefficient of eq:bit.side. */
 static void add_side_tangent(dmb_evaluation *evaluation, uint32_t k, const dmb_side_force *side)
 {
     const dmb_scene_bit *bit = evaluation->sim->scene->bits + k;
@@ -264,6 +281,7 @@ static void count_side_rounding(dmb_evaluation *evaluation, uint32_t k, const dm
     evaluation->rounding += force * force;
 }
 
+/* Linear in the velocities: the force has no tangent by displacements in the axes of the body. */
 static void assemble_side(dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;
@@ -369,6 +387,9 @@ static void guess_helix(dmb_sim *sim, uint32_t k, double cut, double angle, doub
     keep_history(sim, k, &h);
 }
 
+/* Rock surface as after steady drilling at the present speed and spin, so that a run which begins there has no
+ * transient of first contact: the bottom follows the bit at the intrusion depth (eq:bit.rate), the surface is the helix
+ * of one cut per blade. */
 void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -382,6 +403,8 @@ void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
     if (bit->history_capacity) guess_helix(sim, k, cut, m.angle, m.advance);
 }
 
+/* The bottom only advances (dmb_bit_rock_bottom), and the surface gets a sample at the accepted angle. Nothing is cut
+ * by a step that is rejected. */
 void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;

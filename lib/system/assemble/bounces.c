@@ -134,6 +134,7 @@ static void add_gain(const dmb_evaluation *evaluation, uint32_t s, double *gain,
     *exchanged += force * fabs(way);
 }
 
+/* Above DMB_GAIN_CARRIED (integrator/trial_step) the step is repeated with the mean forces in its history. */
 double dmb_bounces_gain(const dmb_evaluation *evaluation)
 {
     const dmb_sim *sim = evaluation->sim;

@@ -239,6 +239,8 @@ static void mark_spring(dmb_sim *sim, uint32_t spring, double h, int reached)
     mark(sim, u, turning, reached);
 }
 
+/* Called twice in a step: at its start by the speeds there, and with `reached` by the motion of the trial, which can
+ * only add laws: one that was marked keeps its mean force to the end of the step. */
 void dmb_bounces_mark_turning(dmb_sim *sim, double h, int reached)
 {
     const dmb_scene *scene = sim->scene;

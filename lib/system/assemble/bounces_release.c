@@ -1,4 +1,4 @@
-/* Release of unilateral forces at the end of a bounce, and the accelerations after it. */
+/* Opening laws in the history of a step (eq:contact.release) and forces of single laws in the residual. */
 #include "system/assemble/bounces.h"
 
 #include <math.h>
@@ -26,6 +26,8 @@ void dmb_bounce_press_mean(dmb_evaluation *evaluation, uint32_t u, double force)
         dmb_spring_press_mean(sim, u - sim->scene->law_count, force);
 }
 
+/* part = 1 at all nodes on which a removed force acts: the whole difference a0 - v0' is dropped there. Stops and
+ * springs that open have mean forces in the step, so that no part of it is left to their law. */
 static void mark_nodes(dmb_sim *sim, double *part)
 {
     const dmb_block_layout *layout = &sim->scene->layout;
@@ -34,6 +36,8 @@ static void mark_nodes(dmb_sim *sim, double *part)
             if (sim->residual[r] != 0.0) part[i] = 1.0;
 }
 
+/* The forces are computed as a residual at the pose of now, with the mapping of the assembly; the residual of the step
+ * is put aside meanwhile. */
 void dmb_bounces_release(dmb_evaluation *evaluation, double *rows, double *part)
 {
     dmb_sim *sim = evaluation->sim;
@@ -49,6 +53,7 @@ void dmb_bounces_release(dmb_evaluation *evaluation, double *rows, double *part)
     memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));
 }
 
+/* The accelerations contain the forces of all laws, so that no mean force continues; ages stay. */
 void dmb_bounces_jump(dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++) sim->site_age[s] &= DMB_SITE_OWN - 1;

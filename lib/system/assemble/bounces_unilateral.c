@@ -1,4 +1,14 @@
-/* Bounces of joint stops and one-sided springs: their ends, damping and mean force. */
+/* Stops of joints and springs as unilateral laws: their numbering, their ends, damping and mean force.
+ *
+ *     index u                             law                            can open           holds
+ *     ---------------------------------   ----------------------------   ----------------   ----------------
+ *     0 .. law_count - 1                  stop of a joint coordinate     if it has bounds   never
+ *     law_count .. + spring_count - 1     spring between two points      one-sided, or      two-sided with
+ *                                                                        flat at 0          a stiffness
+ *     behind, + law_count                 spring of a joint coordinate   never              with a stiffness
+ *
+ * Laws that can open have mean forces where they touch or open (eq:unilateral.mean), laws that hold where their
+ * gradient turns in a step that does not resolve them (eq:unilateral.holding). */
 #include "system/assemble/bounces.h"
 
 #include <math.h>
@@ -65,6 +75,8 @@ void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_uni
         dmb_joint_spring_end_at(scene->laws + dmb_bounce_law_of(scene, u), place, end);
 }
 
+/* Only of dampers that act one-sided, together with their spring. The damper of a two-sided spring acts always and is
+ * not part of the bounce. */
 double dmb_bounce_damping(const dmb_scene *scene, uint32_t u)
 {
     const dmb_scene_spring *spring = spring_of(scene, u);
@@ -78,6 +90,7 @@ void dmb_bounce_ends(const dmb_sim *sim, uint32_t u, dmb_unilateral_end *a, dmb_
     dmb_bounce_end_at(sim->scene, u, sim->trial.bounce_place[u], b);
 }
 
+/* The force beyond the elastic one is the damper's. */
 double dmb_bounce_heat(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t u)
 {
     dmb_unilateral_end end;
@@ -114,6 +127,8 @@ static int lasts(const dmb_sim *sim, uint32_t u)
     return dmb_bounce_holds(sim->scene, u) || fabs(sim->bounce_age[u]) >= DMB_BOUNCE_STEPS;
 }
 
+/* 1: the step has the force of the law at its end. A law that is followed but touches in the step has a mean force in
+ * it already, since the force at the end alone would be that of a contact which lasted the whole step. */
 static int follows_law(const dmb_sim *sim, uint32_t u, const dmb_unilateral_end *a, const dmb_unilateral_end *b)
 {
     if (sim->bounce_mode[u] != DMB_BOUNCE_LAW) return 0;
@@ -121,7 +136,8 @@ static int follows_law(const dmb_sim *sim, uint32_t u, const dmb_unilateral_end 
 }
 
 /* The trapezoidal rule of the ledger uses half of the power at each end of the step: at its start that of the law, or 0
- * if the force of the step before was a mean force. */
+ * if the force of the step before was a mean force. An evaluation outside of a step (own_factor 0) follows the law.
+ * own_factor turns the mean force G into the force G/g' at the end that has its impulse (eq:unilateral.mean). */
 int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law, dmb_bounce_force *own)
 {
     dmb_sim *sim = evaluation->sim;

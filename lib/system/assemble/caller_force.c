@@ -1,3 +1,11 @@
+/* Forces of the caller's functions in the residual and its tangent (eq:motion.caller-force). Order of one force:
+ *
+ *     read_arguments   poses, twists and joint coordinates of the trial, in the axes that the function asks for
+ *     dmb_caller_ask   wrenches, and for a tangent A and B by those arguments (caller_force_call.c)
+ *     to_axes          wrenches into the axes of the places
+ *     apply            L^T w on the nodes
+ *     add_power        power, that of the potential apart
+ *     add_tangent      A and B into the axes of the places, then onto the nodes: -L^T (A L + B dV/dq) - d(L^T) w */
 #include "system/assemble/caller_force.h"
 
 #include <string.h>
@@ -92,7 +100,8 @@ static void add_block(const double block[9], double factor, uint32_t r, uint32_t
     for (uint32_t k = 0; k < 9; k++) M[3 * r + k / 3][3 * c + k % 3] += factor * block[k];
 }
 
-/* M <- R^T M R block by block; r, c count blocks of three. */
+/* M <- R^T M R block by block; r, c count blocks of three. First terms of A and B for forces given in world axes (head
+ * of caller_force.h). */
 static void turn_matrix(const dmb_caller_question *ask, dmb_caller_matrix M)
 {
     const uint32_t blocks = 2 * ask->force->count;
@@ -107,7 +116,8 @@ static void turn_matrix(const dmb_caller_question *ask, dmb_caller_matrix M)
         }
 }
 
-/* B (z_r x V) = -B V~ z_r, and w x z_r = w~ z_r; f: wrenches in the axes of the places. */
+/* B (z_r x V) = -B V~ z_r, and w x z_r = w~ z_r; f: wrenches in the axes of the places. The remaining terms of A for
+ * such forces: in the axes of the place, velocity and wrench turn back by the rotation z_r of the place. */
 static void add_turning(const dmb_caller_question *ask, const argument *a, dmb_caller_answer *to)
 {
     const uint32_t blocks = 2 * ask->force->count;
@@ -212,6 +222,8 @@ static void add_products(const dmb_caller_matrix M, const dmb_caller_matrix *N, 
     }
 }
 
+/* First the tangent by displacements, with A and B, then the one by velocities, with B alone (dmb_force_tangent_add).
+ */
 static void add_tangent(const dmb_evaluation *evaluation, const dmb_caller_question *ask, const argument *a,
                         dmb_caller_answer *to)
 {
@@ -253,7 +265,8 @@ static void apply(dmb_sim *sim, const argument *a, const double f[6])
     if (joint->a.node != DMB_NONE) dmb_apply_wrench(sim, joint->a.node, wa);
 }
 
-/* Adds the powers: the rate of the potential to potential forces, the remainder to loads. */
+/* Adds the powers: the rate of the potential to potential forces, the remainder to loads. dU/dt along the motion
+ * includes its explicit dependence on time; the power that the potential does not explain is work of a load. */
 static int32_t add_power(dmb_evaluation *evaluation, const dmb_caller_question *ask, const argument *a,
                          const dmb_caller_answer *to)
 {

@@ -1,4 +1,7 @@
-/* Call of a caller's force function: arguments, result, and derivatives of the result. */
+/* Call of a caller's force function: arguments, result, and derivatives of the result. Derivatives are those given by
+ * the function or central differences of fourth order, f' h = (f(-2h) - 8 f(-h) + 8 f(h) - f(2h))/12. Differences call
+ * with the state of the law at the last accepted time and write its new state to `spare`, so that the state of the
+ * trial is that of the one call at the trial's own arguments. */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -66,6 +69,8 @@ static void displace(dmb_caller_question *ask, uint32_t i, uint32_t c, double s)
     dmb_mat3_copy(R, ask->R[i]);
 }
 
+/* 48 calls for each place, 8 for each joint coordinate: four along each displacement and each velocity, in steps of the
+ * description (pose_step, speed_step). */
 static int32_t tangent_by_differences(const dmb_caller_question *ask, dmb_caller_matrix A, dmb_caller_matrix B)
 {
     const uint32_t n = 6 * ask->force->count;
@@ -113,6 +118,8 @@ int32_t dmb_caller_ask(const dmb_caller_question *ask, int tangent, dmb_caller_a
     return status < 0 || !tangent ? status : tangent_by_differences(ask, to->A, to->B);
 }
 
+/* Differences along the motion q exp(s v), t + s, with a step in time by which no place moves more than
+ * DMB_MOTION_STEP. */
 int32_t dmb_caller_potential_rate(const dmb_caller_question *ask, double *rate)
 {
     double fastest = 1.0;

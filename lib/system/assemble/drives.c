@@ -1,6 +1,15 @@
-/* Drives: prescribed motion, loads on a component, and speed control. Control: command = clamp(kp e + ki z), e = v* -
- * v, z' = e by the trapezoidal rule, constant while a limit acts, the torque-speed curve of an actuator included. A
- * table G(e) may replace kp e, with G'(e) as kp. */
+/* Drives: prescribed motions, loads and speed controllers (PI, or a table of gains) on components of nodes and on
+ * coordinates of joints.
+ *
+ *     kind       on a node                                           on a joint
+ *     --------   -------------------------------------------------   ----------------------------------------------
+ *     MOTION     prescribed row: increment, speed, acceleration      a constraint; position and rate are its targets
+ *     LOAD       force on the row                                    force on the coordinate (joint_forces.c)
+ *     CONTROL    force of the controller at the speed of the row     the same
+ *
+ * The force of a motion drive is a reaction: the residual of its row, or minus the multiplier of its constraint. A
+ * controller commands clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, at rest while a limit acts, the
+ * torque-speed curve of an actuator included. A table G(e) may replace kp e, with G'(e) as kp. */
 #include "system/assemble/drives.h"
 
 #include <math.h>
@@ -29,6 +38,8 @@ static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *va
     return status;
 }
 
+/* [m, rad] Exact integral of the target over the step (eq:drive.step): positions do not drift from the prescribed
+ * function, whatever the step. */
 static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, double t0, double t1, double *travel)
 {
     double extra = 0.0;
@@ -59,6 +70,9 @@ static int32_t rate_to_come(const dmb_sim *sim, uint32_t i, double *rate)
     return target_of(sim, i, fmax(sim->clock->time, sim->clock->breakpoint), &value, rate);
 }
 
+/* The acceleration at the end of the step is the slope of the target on the step's side of a breakpoint there; without
+ * a step (start and jumps) it is the slope from now on. A jump between the two restarts the accelerations
+ * (dmb_system_rate_jumps). */
 static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
@@ -158,7 +172,9 @@ double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configura
     return gain;
 }
 
-/* Force of a controlled drive and its derivative by the speed; stores the integral of the error in the trial. */
+/* Force of a controlled drive and its derivative by the speed; stores the integral of the error in the trial. The
+ * integral of the error is that of the trapezoidal rule, so that it belongs to the equations of the step. While the
+ * force is at a limit of the drive or of its actuator, the integral is held at its accepted value (anti-windup). */
 static double control_force(const dmb_evaluation *evaluation, uint32_t i, double speed, double *slope)
 {
     dmb_sim *sim = evaluation->sim;
@@ -218,6 +234,8 @@ void dmb_assemble_drives(dmb_evaluation *evaluation)
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
 
+/* The position of a motion drive is prescribed; that of others, and of any drive of an open joint, is the coordinate
+ * less its value at time 0 (drive_offset). */
 void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed, int open)
 {
     sim->trial.drives[drive].speed = speed;

@@ -1,5 +1,14 @@
 /* Flexible elements: internal and inertia forces, stiffness and inertia tangent, element by element in the order of the
- * chain. */
+ * chain.
+ *
+ *     batch             elements between                  method
+ *     ---------------   -------------------------------   ------------------------------------------------------------
+ *     BEAM              two six-DOF nodes                 SE(3) element in lanes, long runs in chunks
+ *     AXIAL_TORSIONAL   two axial-torsional nodes         stretch and twist along the hole's axis (eq:bar.force)
+ *     mixed             one of each                       SE(3) element, one side projected on two columns
+ *
+ * The number of chunks depends on the number of elements alone, and their sums are added in their order: results do not
+ * depend on the number of threads. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -95,7 +104,8 @@ static dmb_batch piece_of(const beam_chunks *in, uint32_t piece)
 }
 
 /* The node between two chunks: the second chunk writes its own contribution, the first stores its contribution in the
- * seam. */
+ * seam. A node between two chunks has contributions from both. They are added afterwards (add_seam), so that no two
+ * threads write the same row. */
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
     const beam_chunks *in = work;
@@ -207,7 +217,9 @@ static void axial_torsional_forces(dmb_evaluation *evaluation, const dmb_batch *
     evaluation->power[DMB_POWER_INERTIA] = args.inertia;
 }
 
-/* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. */
+/* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. Mass, stiffness and damping are 2 x 2
+ * matrices of each coordinate. Blocks off the diagonal hold their sum, blocks on the diagonal stiffness and the other
+ * two apart, as all blocks of nodes do until the iteration matrix is made. */
 static void axial_torsional_tangent(const dmb_evaluation *evaluation, const dmb_element_type *type, uint32_t a,
                                     uint32_t c)
 {
@@ -314,7 +326,9 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
 }
 
 /* Mixed element (one six-DOF and one axial-torsional node): a beam between two poses; its forces and tangents are
- * projected to the axial-torsional side as J^T f and J^T K J, J its two columns. */
+ * projected to the axial-torsional side as J^T f and J^T K J, J its two columns. J (6, 2) maps the speeds along and
+ * about the hole's axis to the body-frame velocity of the node (eq:kinematics.path-velocity). The change of J along the
+ * axis is not in the tangent. */
 DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;

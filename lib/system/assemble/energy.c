@@ -1,3 +1,12 @@
+/* Energies of a configuration and section forces of elements. Every potential is the one whose derivative the assembly
+ * applies, so that the ledger closes up to the error of the scheme.
+ *
+ *     energy        expression                                                   equation
+ *     -----------   ----------------------------------------------------------   ----------------------------
+ *     kinetic       v.Mv/2 of elements, rigid masses, added masses               eq:motion.euler-poincare
+ *     strain        e.Ke/(2L); of bent elements K couples the components         eq:beam.force, eq:curved.flexibility
+ *     gravity       -m g.x - g.R b, less its value in the described pose         eq:motion.weight
+ *     wall          length times the integral of K d^n                           eq:contact.normal */
 #include "system/assemble/energy.h"
 
 #include <math.h>
@@ -23,7 +32,7 @@ static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
     return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
-/* Velocities of an element's two ends. */
+/* Velocities of an element's two ends. The flexible part begins behind a rigid arm along x (eq:kinematics.arm). */
 static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6])
 {
     const uint32_t a = scene->element_node[e];
@@ -244,6 +253,8 @@ static void bent_centre(const dmb_scene *scene, const dmb_configuration *c, uint
     dmb_mat3_vec(R, x, start);
 }
 
+/* [J] of what the weight of bent elements adds to that lumped at their nodes (eq:curved.weight), less its value in the
+ * described pose. */
 static double bent_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     double sum = 0.0, now[3], start[3];
@@ -376,7 +387,8 @@ static void end_inertia(const dmb_scene *scene, const dmb_configuration *configu
 }
 
 /* Equilibrium of an end with its part of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
- * B. */
+ * B. Mass, weight and mud drag of an element act at its ends in the equations of motion; the loads of its very ends are
+ * the section forces with the shares of these ends. */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12])
 {

@@ -1,6 +1,23 @@
-/* Evaluation of the equations of motion (eq:motion.euler-poincare) at a trial: all terms in the order of
- * dmb_system_evaluate, which fixes the rounding of their sums; motion of nodes, iteration matrix, and results at
- * acceptance. */
+/* Evaluation of the equations of motion (eq:motion.euler-poincare) at a trial. The order of dmb_system_evaluate fixes
+ * the rounding of the sums, and with it the bits of every result:
+ *
+ *     term                       file                     needs before it
+ *     ------------------------   ----------------------   ----------------------------------------------------------
+ *     elements                   elements.c               nothing: beams write their rows and blocks, others add
+ *     rigid masses, weight,      nodes.c,                 tension of the elements (friction on the hole's axis)
+ *       damping, friction of     nodes_axial_torsional.c
+ *       axial-torsional nodes
+ *     added mass of mud          nodes.c
+ *     contact at the wall        wall_contact.c           strain of the elements (contact points inside them)
+ *     loads, mud flow            nodes.c
+ *     drives of nodes, bits      drives.c, bit.c
+ *     springs, stuck places,     springs.c, stuck.c,      cleared tangents of constraints
+ *       callers' forces          caller_force.c
+ *     joints                     joint_forces.c           all other forces: multipliers balance them
+ *                                                         (eq:joints.multipliers)
+ *
+ * Signs: forces enter the residual with a minus sign. Powers are those of the forces on the bodies. Rows and blocks are
+ * in the axes of their node. Also here: motion of the nodes, the iteration matrix, and results at acceptance. */
 #include "system/assemble/evaluation.h"
 
 #include <string.h>
@@ -85,6 +102,8 @@ static void note_turned(dmb_sim *sim, uint32_t first, uint32_t end, double turne
     for (; to <= sim->turned_squared + (end - 1) / DMB_GRAIN; to++) *to = 0.0;
 }
 
+/* H1 = H0 exp z in six-DOF nodes (eq:integration.newmark), additions along and about the axis in axial-torsional ones
+ * (eq:kinematics.path-velocity). */
 void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end)
 {
     const dmb_scene *scene = sim->scene;
@@ -120,6 +139,7 @@ void dmb_system_move(dmb_sim *sim)
     dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
 }
 
+/* One sum of magnitudes instead of a test of each row: it is not finite if any of them is not. */
 static int32_t finite_status(const dmb_sim *sim)
 {
     const double sum = sim->scene->kernels->magnitude(sim->scene->row_count, sim->residual);
@@ -211,13 +231,16 @@ static void make_diagonal_blocks(void *work, uint32_t first, uint32_t end)
     }
 }
 
+/* Free rigid bodies from number `rigid` on: dmb_free_rigids_matrix has made their whole block, which is not multiplied
+ * by T6 again. */
 static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
 {
     block_work work = {sim, rigid, 0};
     dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, make_diagonal_blocks, &work);
 }
 
-/* Makes row and column of a constrained unknown identity. */
+/* Makes row and column of a constrained unknown identity. The row becomes z = 0 and its column 0 in the other rows. Its
+ * residual is not solved for: it is the reaction of the support (dmb_system_get_reactions). */
 static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
 {
     const dmb_scene *scene = sim->scene;
@@ -278,6 +301,9 @@ void dmb_system_constrained_times(const dmb_sim *sim, const double *rows, const 
         product[i] = row_times(&scene->layout, scene->constrained_node[i], rows + 18 * (size_t)i, z);
 }
 
+/* In a step (velocity_factor > 0) bodies with axes of their own come first: they replace the factors 1, gamma', beta'
+ * of pose, velocity and acceleration by matrices (eq:integration.free-rigid, eq:motion.rotor-tangent). A mass matrix
+ * has no pose parameters and is taken at the nodes. */
 void dmb_system_iteration_matrix_constrained(const dmb_evaluation *evaluation, double *constrained_rows)
 {
     dmb_sim *sim = evaluation->sim;
@@ -334,6 +360,9 @@ void dmb_system_get_reactions(dmb_sim *sim, dmb_configuration *to)
     dmb_drives_read_reactions(sim, to);
 }
 
+/* Memory that depends on the accepted motion, each part from the trial: positions of drives, delay lines, revolutions
+ * and partition of joints, reactions, rock surfaces. Contact points inside elements whose evaluation was deferred get
+ * their penetration first. */
 void dmb_system_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
