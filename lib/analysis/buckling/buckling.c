@@ -7,7 +7,9 @@
  *      searched in the present pose (confirm_all)
  *   4. else, with options.follow and a factor or a bound factor_max for non-symmetric K: path following
  *      (buckling_follow.c)
- *   5. else, for non-symmetric K: flutter in the present state alone (judge_present); the factors are extrapolations */
+ *   5. else, for non-symmetric K: flutter in the present state alone (judge_present); the factors are extrapolations
+ *
+ * All of it works on `work`, a copy of the sim: after an error the sim is as before, and the copy is released. */
 #include "analysis/buckling/buckling.h"
 
 #include <string.h>
@@ -141,6 +143,8 @@ static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckl
 }
 
 /* Factors about the present state, then along the equilibria. */
+/* `first` keeps the factors of the present state: path following confirms further factors by them, and messages compare
+ * with them. */
 static int32_t find_factors(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");

@@ -169,6 +169,9 @@ static int is_minimum(const dmb_dip *dip, double next)
            dip->last.value < DMB_DIP_SHALLOW * dip->most;
 }
 
+/* After a minimum was kept the path goes on: it counts as soon as the value has risen by DMB_DIP_RISE (1), and is
+ * dropped if the value falls below it. The minimum is searched among three consecutive points, of which the middle one
+ * is lowest. */
 int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare)
 {
     dmb_dip_point next = {path->last.arc + arc, 0.0, path->next.factor};

@@ -31,6 +31,8 @@ static void store_shape(dmb_buckling *buckling, uint32_t k)
 }
 
 /* distance: of the factor from the linearised state. */
+/* Factors closer than DMB_SAME_FACTOR belong to one eigenspace: the vector is made orthogonal to those found in it, as
+ * the count has shown that there are as many. */
 static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
 {
     const size_t unknowns = buckling->pencil.unknowns;
@@ -41,6 +43,8 @@ static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
     store_shape(buckling, k);
 }
 
+/* Factor k + 1 is searched from factor k on. Its number is known from the count, so none is missed and the end of the
+ * list is certain: fewer than requested exist up to factor_max (DMB_NOTE_STOPPED). */
 static int32_t find_symmetric(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
 {
     const double most = options->factor_max - buckling->at;

@@ -15,7 +15,8 @@
 
 /* ---- Rotation of a node ------------------------------------------------------------------------------------------ */
 
-/* Restriction of the rotation Q to the free components, of which a support leaves three, two (a plane), one or none. */
+/* Restriction of the rotation Q to the free components, of which a support leaves three, two (a plane), one or none. In
+ * a plane it is the nearest rotation to the 2 x 2 part of Q; one component alone does not turn. */
 static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9])
 {
     uint32_t free[3], count = 0;
@@ -79,6 +80,8 @@ static void congruence(square left, square right, int transposed, double *A, dou
         }
 }
 
+/* K_now = T K_trial T^T (eq:buckling.frames), block by block of the chains without joints. T of two neighbours is at
+ * hand at a time. */
 void dmb_frames_turn_chains(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -147,7 +150,8 @@ static uint32_t node_of_block(const dmb_scene *scene, uint32_t block)
     return node;
 }
 
-/* W of a block, n x n. */
+/* W of a block, n x n: independent coordinates of the present axes by those of the trial, y_now = W y_trial. W contains
+ * the rows of T R, R = [G; I] of eq:static.blocks, that belong to independent coordinates. */
 static void rows_of_block(const dmb_sim *sim, uint32_t block, uint32_t n, double *W)
 {
     const dmb_scene *scene = sim->scene;
@@ -162,6 +166,8 @@ static void rows_of_block(const dmb_sim *sim, uint32_t block, uint32_t n, double
     turn_of_node(sim, node_of_block(scene, block), W);
 }
 
+/* With V = W^-1, y_trial = V y_now: K_now = V^T K_trial V for all blocks. 0 if a W is singular: the coordinates that
+ * are independent in the present axes are not in the trial's. */
 int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
 {
     const dmb_block_pattern *pattern = &sim->scene->pattern;
@@ -227,6 +233,8 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     return DMB_OK;
 }
 
+/* Step of the factor: the response moves no node by more than DMB_DIFFERENCE_MOVE length scales. 1 if the loads move
+ * nothing: K is then linear in the factor, and every step gives the same difference. */
 static double difference_of(const dmb_buckling *buckling, double given)
 {
     const dmb_scene *scene = buckling->work->scene;
@@ -385,6 +393,8 @@ static int32_t raise_stiffness(dmb_buckling *buckling, dmb_static_search *search
     return DMB_OK;
 }
 
+/* K itself is counted once more in the form in which pencil.c uses it: positive definite as eq:buckling.pencil
+ * requires. If it has negative eigenvalues that statics had found within rounding, K + T takes its place. */
 static int32_t stable(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     uint32_t negative;
@@ -413,6 +423,8 @@ static int32_t begin(dmb_buckling *buckling, dmb_static_search *search)
     return status >= 0 && work->scene->cluster_count ? dmb_static_settle(search) : status;
 }
 
+/* Order: K and q at the state, the response by its factors, two states beside it for G, the check
+ * of K, and the state itself again, because the reduction of the joints expands the shapes. */
 int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     dmb_static_search search;

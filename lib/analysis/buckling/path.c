@@ -1,4 +1,15 @@
-/* Equilibrium paths (dmb_analysis_path): options, start, path following, events. */
+/* Equilibrium paths r(H, f) = 0 (dmb_analysis_path): options, start, path following, events. One turn of `follow`:
+ *
+ *     dmb_path_find_next   predictor and corrector (path_step.c); after a failure half the length, 40 times at most
+ *     event in the step     the point is moved to it, the first that applies (dmb_path_event):
+ *       limit               df/ds changes sign: the path goes on beyond it
+ *       bifurcation         the number of negative eigenvalues changes: straight on, or once onto the branch (options)
+ *       factor_end,         end of the path
+ *       displacement_end
+ *     dmb_path_accept       the point becomes `last` and is reported
+ *
+ * Failure is: no convergence after 40 halvings, 50 steps that creep, or an error that is final. The points reported
+ * before remain valid; the sim is never changed, because the path works on a copy. */
 #include "analysis/buckling/buckling.h"
 
 #include <string.h>
@@ -67,6 +78,8 @@ static void explain(dmb_path *path, int32_t status)
     }
 }
 
+/* First point: the present state, at rest and settled on its joints. It must be an equilibrium, and its stiffness
+ * regular: the tangent is -K^-1 q. The direction is that of a factor which moves towards factor_end. */
 static int32_t begin(dmb_path *path)
 {
     dmb_sim *work = path->work;
@@ -157,6 +170,9 @@ static int32_t lost(const dmb_path *path)
     return path->turned != DMB_NONE && near ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
 }
 
+/* An event that cannot be located counts as a failed step, too: the shorter step may contain only the nearer of two
+ * events. The element that rotates too far is remembered: halving goes on to the factor at which its limit is reached,
+ * and the message then names it. */
 int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
 {
     for (int cuts = 0;; cuts++, path->report.cuts++) {
@@ -186,6 +202,7 @@ static void go_straight_on(dmb_path *path)
     path->next.rate = path->last.rate;
 }
 
+/* First point of the branch, at branch_size or at the present step length; the path continues from there. */
 static int32_t leave(dmb_path *path, double *arc)
 {
     if (path->options->branch_size > 0.0) *arc = path->options->branch_size;
@@ -217,6 +234,8 @@ static double shorten(const dmb_path *path, double arc)
     return fmin(arc, DMB_UNSYMMETRIC_STEP * fabs(path->options->factor_end / path->last.rate));
 }
 
+/* The factor's rate makes an arc of the first step, a tenth of factor_end by default. The length then changes with the
+ * root of 5 iterations over those needed, by at most a factor of 2, and stays as it is after an event. */
 static int32_t follow(dmb_path *path)
 {
     const dmb_path_options *o = path->options;
@@ -252,6 +271,8 @@ static int32_t follow(dmb_path *path)
     return status;
 }
 
+/* The workspace is measured with an empty arena first, then placed. dmb_path_close releases whatever exists after an
+ * error. */
 int32_t dmb_path_open(dmb_path *path)
 {
     dmb_sim *sim = path->sim;

@@ -1,3 +1,12 @@
+/* Flutter along equilibria of non-symmetric stiffness: the largest real part of a root of det(s^2 M + s C + K) = 0
+ * (eq:static.characteristic), by damped modes about each state.
+ *
+ *     along a path   dmb_flutter_look: at each point; growth is bracketed by bisection between it and the point before
+ *     in one pose    dmb_flutter_of_pose: at 20 equal parts of the factor, then bisection in the first part that grows
+ *
+ * Growth that appears and vanishes between two such states is missed. A state whose modes cannot be computed is
+ * skipped, and a result without flutter then becomes DMB_FLUTTER_NOT_JUDGED.
+ * With assumed slip nothing is assessed (`off`). */
 #include "analysis/buckling/buckling.h"
 
 #include <math.h>
@@ -40,6 +49,9 @@ static int32_t pass_by(dmb_flutter *flutter, int32_t status)
 }
 
 /* Largest real part of a damped mode about flutter->state; 0 if it is rounding of a mode without growth or decay. */
+/* The linearisation scales gravity, loads and bit loads by 1 + factor itself if all loads grow; single loads are
+ * already part of the copied trial. The root with growth is stored with its factor: bisection overwrites it with the
+ * lowest one found. */
 static int32_t judge(dmb_flutter *flutter, double factor)
 {
     const double growth = flutter->pattern->scale == DMB_SCALE_ALL ? factor : 0.0;
@@ -118,6 +130,8 @@ static int32_t judge_pose(dmb_flutter *flutter, double factor)
     return judge(flutter, factor);
 }
 
+/* The pose stays that of factor 0, therefore it applies to loads that move nothing, or to factor 0 alone (to = 0). At a
+ * critical factor of divergence a root is 0: with `through` 0 the end itself is left out. */
 int32_t dmb_flutter_of_pose(dmb_flutter *flutter, dmb_sim *at, double to, int through)
 {
     double low = 0.0, high = 0.0;

@@ -1,3 +1,13 @@
+/* Load patterns: the loads at the factor f of a path or a buckling analysis, beside those present at f = 0.
+ *
+ *     scale              gravity    loads, bit loads   drives of a force   one part
+ *     DMB_SCALE_ALL      1 + f      1 + f              1 + f               -
+ *     DMB_SCALE_LOADS    1          1 + f              1 + f               -
+ *     DMB_SCALE_PART     1          1                  1                   load: its factor + f; drive: its force + f;
+ *                                                                          motion drive: its row moves by f
+ *
+ * q = dr/df of eq:buckling.arc is the difference of two residuals, exact since loads enter linearly, or the column of K
+ * that belongs to a moved row. */
 #include "analysis/buckling/buckling.h"
 
 #include <string.h>
@@ -10,6 +20,8 @@ size_t dmb_load_pattern_size(const dmb_scene *scene)
     return (size_t)scene->load_count + scene->bit_count + scene->drive_count;
 }
 
+/* A speed controller has no given force. Motion is prescribed in a row of the residual: a joint has none, and in a
+ * reduced system of joints the row is not a coordinate of its own. */
 static int32_t read_drive(dmb_sim *sim, const char *who, dmb_load_pattern *pattern)
 {
     const dmb_scene_drive *drive = sim->scene->drives + pattern->drive;

@@ -14,6 +14,8 @@
 #include "system/assemble/assemble.h"
 #include "system/solve/solve.h"
 
+/* a . D b with the weights D of eq:buckling.arc, 1 and L0^2. The mean over the nodes makes the arc a root mean square
+ * displacement, independent of the mesh. */
 double dmb_path_dot(const dmb_path *path, const double *a, const double *b)
 {
     const dmb_scene *scene = path->work->scene;
@@ -82,6 +84,8 @@ static int32_t solve_both(dmb_path *path, int judged)
     return DMB_OK;
 }
 
+/* Moves by path->move and the factor with it. The stress of the next stiffness is extrapolated
+ * (eq:static.extrapolated). */
 static int32_t advance(dmb_path *path, double factor)
 {
     path->next.factor += factor;
@@ -90,6 +94,7 @@ static int32_t advance(dmb_path *path, double factor)
     return dmb_static_move(&path->search, path->move, 1.0);
 }
 
+/* Predictor: from the last point along the tangent. Joints are closed again by the move. */
 static int32_t predict(dmb_path *path, const double *direction, double rate, double arc)
 {
     dmb_sim *work = path->work;
@@ -104,6 +109,9 @@ static int32_t predict(dmb_path *path, const double *direction, double rate, dou
     return advance(path, arc * rate);
 }
 
+/* Corrector: Newton with one factorisation for both right-hand sides; stays in the plane t . D z = 0 normal to
+ * `direction`. Convergence is that of statics. K itself is factored, so that a limit point cannot be computed exactly,
+ * only points beside it. */
 int32_t dmb_path_correct(dmb_path *path, const double *direction, double rate, double arc)
 {
     int32_t status = predict(path, direction, rate, arc);
@@ -138,6 +146,8 @@ static double watched_of(const dmb_path *path)
     return pose.displacement[path->options->component];
 }
 
+/* Unit tangent -K^-1 q / |K^-1 q|, in the sense of `towards`: the sign of the factor's rate then changes at a limit
+ * point. */
 int32_t dmb_path_tangent(dmb_path *path, const double *towards)
 {
     path->search.evaluation.extrapolated = 0;
@@ -190,6 +200,8 @@ int32_t dmb_path_end(const dmb_path *path, int32_t but)
     return DMB_EVENT_NONE;
 }
 
+/* The limit point comes first: there an eigenvalue changes sign, too, and the count alone would name it a bifurcation.
+ * `side` is the rate of the last point, or at a limit point the rate beyond. */
 int32_t dmb_path_event(const dmb_path *path)
 {
     if (path->side * path->next.rate < 0.0) return DMB_EVENT_LIMIT;
@@ -339,6 +351,14 @@ static void turn_corner(dmb_path *path, int32_t *event)
 #define DMB_ISOLATED 1e-3
 #define DMB_STEP_BACK 0.1
 
+/* Steps, all on the arc between the last point (0) and the next one (`arc`):
+ *
+ *     1. probe_ends     softest eigenvalue at both ends: the scale `size` of its values
+ *     2. by count       bisection to the first change of the count, within DMB_ISOLATED
+ *     3. by eigenvalue  regula falsi of the softest eigenvalue around it; by count if it does not change sign there
+ *     4. result         eigenvalue 0 to rounding at the point: bifurcation
+ *                       not 0: a contact opened or closed there, a corner (turn_corner)
+ *                       0 along the whole step: a neutral motion, no event */
 static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t *event)
 {
     bracket whole = {0.0, arc, 0.0, 0.0}, counted = {0.0, arc, 1.0, -1.0}, soft;
@@ -414,6 +434,8 @@ static void straighten_mode(dmb_path *path)
     for (uint32_t i = 0; i < rows; i++) path->mode[i] *= side;
 }
 
+/* Starts along the mode with the factor fixed (rate 0), since the branch leaves the path across it; the corrector then
+ * stays in the plane normal to the mode and cannot return to the path. */
 int32_t dmb_path_leave(dmb_path *path, double *arc)
 {
     int32_t status = DMB_ERR_NO_CONVERGENCE;

@@ -305,6 +305,8 @@ static double iterate(dmb_pencil *pencil, uint32_t k, const interval *i, double 
     return confirmed ? factor : (double)NAN;
 }
 
+/* Bracket by counts, then bisection. As soon as the interval contains this factor alone, the Rayleigh quotient
+ * iteration replaces the further bisections; if it fails, it is tried again after DMB_PENCIL_HALVES further ones. */
 double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance)
 {
     interval i;
@@ -377,6 +379,8 @@ static int32_t go_on(void *context)
 /* A value below this fraction of the largest is rounding of 0, not a factor. */
 #define DMB_GENERAL_NOISE 1e-7
 
+/* `most`: largest factor wanted. A double value appears as a pair: both parts of its complex vector then span its
+ * plane. */
 static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, double most, double *factors,
                      double *vectors)
 {
@@ -395,6 +399,9 @@ static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, d
     return found;
 }
 
+/* The largest real positive eigenvalues 1/factor of A. Complex ones and negative ones may be larger: the number of
+ * values is tripled until enough factors are among them, all values are known, or DMB_GENERAL_MOST is exceeded. Fewer
+ * factors than requested are a result, not an error, and no proof that there are none beyond. */
 int32_t dmb_pencil_general(dmb_pencil *pencil, const dmb_pencil_search *search, double *factors, double *vectors,
                            uint32_t *found)
 {

@@ -1,3 +1,14 @@
+/* Frequency response (eq:response.direct): d(w) = (K (1 + i eta) + i w C - w^2 M)^-1 f(w) for each excitation of unit
+ * amplitude. Order:
+ *
+ *     linearise                  once about the state, an equilibrium within the tolerance
+ *     read_inputs, read_outputs  f(w) by its law of w, outputs as linear functions of d
+ *     solve_grid                 DMB_FREQUENCIES points at a time in lanes, SIDES excitations on shared factors
+ *     refine                     up to `refinement` times: intervals beside peaks are halved, new points solved
+ *
+ * Refinement ends early if no interval is divided (DMB_NOTE_STOPPED). Effects that the response neglects are noted,
+ * also those found while it was computed (note_left_out). After an error no response exists; the sim is never
+ * changed. */
 #include <math.h>
 #include <string.h>
 
@@ -11,12 +22,6 @@
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
 #include "system/system.h"
-
-/* ---- Questions --------------------------------------------------------------------------------------------------- */
-
-/* Frequency response (eq:response.direct): one linearisation; excitations and outputs; points of the grid, solved in
- * groups; then up to `refinement` passes, each of which halves the intervals beside the peaks of transfer functions and
- * solves the new points. Refinement ends early if no interval is divided. */
 
 /* Largest number of right-hand sides solved together, which share the cost of factors. */
 enum { SIDES = 16 };
@@ -53,6 +58,7 @@ static int32_t allocate_memory(dmb_response_work *w)
     return DMB_OK;
 }
 
+/* A response superposes small motions on a state at rest; forces that do not balance would be missing from it. */
 static int32_t check_balance(const dmb_response_work *w)
 {
     const dmb_linear *linear = w->linear;
@@ -143,6 +149,7 @@ static int32_t refine(dmb_response_work *w, dmb_response *response)
     return status >= 0 && all == before ? DMB_NOTE_STOPPED : status;
 }
 
+/* An undamped scene without structural damping has no finite height at a resonance: `undamped` reports it. */
 static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, const dmb_output *outputs,
                        dmb_response *response)
 {

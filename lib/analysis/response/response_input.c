@@ -36,6 +36,7 @@ static int32_t refuse(const request *r, int32_t status, const char *why)
 
 /* ---- Described actions ------------------------------------------------------------------------------------------- */
 
+/* Dynamic residual at the state; `given`: with the constraint forces of the state. */
 static int32_t residual(dmb_sim *copy, double step)
 {
     dmb_evaluation evaluation;
@@ -181,6 +182,8 @@ static int acts_across(const request *r, const dmb_scene_drive *drive)
     return (drive->row - r->copy->scene->layout.row[drive->node]) % 3 != 0 && turns(r, drive->node);
 }
 
+/* Kinds of drives: a force is linear in its target; a motion prescribes displacements; a controller has a force by its
+ * gains. At its limit a controller has no answer, in an open joint no drive acts. */
 static int32_t of_drive(const request *r, uint32_t i)
 {
     const dmb_scene_drive *drive = r->copy->scene->drives + i;

@@ -1,3 +1,5 @@
+/* Options of frequency responses and stepped sines with the conditions between fields, frequencies of the grid, and the
+ * fields of excitations that do not depend on the scene. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -55,6 +57,7 @@ int32_t dmb_stepped_sine_options_get(const dmb_stepped_sine_options *given, doub
     return check.status;
 }
 
+/* The ends of the band are exact; in between steps are equal, or equal in ratio. */
 double dmb_response_grid(const dmb_response_options *o, uint32_t i)
 {
     if (o->frequencies != NULL) return o->frequencies[i];
@@ -67,6 +70,7 @@ double dmb_response_grid(const dmb_response_options *o, uint32_t i)
 
 /* ---- Excitations ------------------------------------------------------------------------------------------------- */
 
+/* Arrays of sized structs have the stride of their first item; all must be of that size. */
 static const void *item_of(const void *items, uint32_t stride, uint32_t i, uint32_t *size)
 {
     const unsigned char *item = (const unsigned char *)items + (size_t)stride * i;

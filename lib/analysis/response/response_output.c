@@ -1,8 +1,14 @@
-/* Contacts, bits and joints' laws by the chain rule, since their laws are not smooth over the step of a difference:
+/* Outputs as linear functions of the motion (section after eq:response.direct), by kind:
  *
- *     dN = N_d dd + N_r dr,   dF = F_v dv + F_N dN      (depth d, its rate r, slip v)
+ *     motion               row of the place, differentiated `rate` times
+ *     section force        differences of the query, which is smooth in the motion around the section
+ *     contact              chain rule: dN = N_d dd + N_r dr, dF = F_v dv + F_N dN   (depth d, its rate r, slip v)
+ *     law of a joint       chain rule: dF = F_x dx + F_v dx'
+ *     support              constrained rows of A x - f
+ *     multiplier, joint    multipliers, which balance the dependent rows
+ *     drive                its law by the motion, and its direct part if it is the excitation
  *
- * Forces of supports are the constrained rows of A x - f; constraint forces balance the dependent rows. */
+ * Contacts and laws of joints are not smooth over the step of a difference, hence the chain rule. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -55,6 +61,7 @@ static int32_t of_motion(const request *r)
     return status < 0 ? refuse_place(r, status) : DMB_OK;
 }
 
+/* The query is tried once before its differences: it refuses places that have no section. */
 static int32_t of_section(const request *r)
 {
     int32_t status;
@@ -191,6 +198,7 @@ static void set_cluster_of_node(const request *r, uint32_t node)
     if (scene->cluster_count > 0) r->out->cluster = scene->node_cluster[node];
 }
 
+/* The cluster of the node is noted: reactions of joints act in the same row. */
 static void set_support(const request *r, uint32_t held, double weight)
 {
     r->out->support[r->out->support_count] = held;

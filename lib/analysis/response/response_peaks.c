@@ -43,6 +43,7 @@ static uint32_t mark(const dmb_response *response, uint8_t *split)
     return count;
 }
 
+/* Table with the old points and a new one in the middle of each marked interval, whose value is left to the caller. */
 static void merge(const dmb_response *old, const uint8_t *split, dmb_response *response, uint8_t *fresh)
 {
     const size_t stride = 2 * (size_t)old->excitations * old->outputs;
@@ -56,6 +57,7 @@ static void merge(const dmb_response *old, const uint8_t *split, dmb_response *r
     }
 }
 
+/* A failure leaves the response as it was. */
 int32_t dmb_response_split_peaks(dmb_response *response, uint8_t **fresh)
 {
     const dmb_response old = *response;

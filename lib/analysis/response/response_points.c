@@ -24,6 +24,12 @@ static void scale_rows(uint32_t rows, double re, double im, dmb_complex_array fr
 }
 
 /* Right-hand side of an input into x: forces, also stored in f, or displacements prescribed by a drive. */
+/* By the law of the excitation, for unit amplitude of the quantity that is prescribed:
+ *
+ *     force                 f
+ *     inertia (unbalance)   w^2 f (eq:response.eccentric)
+ *     target of a control   (k_p + k_i/(i w)) f
+ *     speed of a motion     displacements p/(i w): no forces of its own, and undefined at w = 0 */
 static int32_t load(dmb_response_work *w, uint32_t input, double omega)
 {
     const dmb_linear_excitation *e = w->excitations + input;
@@ -111,6 +117,7 @@ static uint32_t put_sides(dmb_response_work *w, const dmb_response_points *point
     return none;
 }
 
+/* The lanes hold only displacements: forces are set again where outputs need them, and prescribed ones for motions. */
 static void get_values(dmb_response_work *w, dmb_response *response, uint32_t point, uint32_t lane, const batch *b)
 {
     for (uint32_t c = 0; c < b->count; c++) {

@@ -92,6 +92,7 @@ static void add_input(const dmb_response *response, size_t point, uint32_t input
     to[1] += re * value[1] + im * value[0];
 }
 
+/* Excitations superpose because the response is linear: sum of amplitude e^(i phase) times transfer function. */
 void dmb_response_combined(const dmb_response *response, size_t point, uint32_t output, double value[2])
 {
     value[0] = value[1] = 0.0;

@@ -1,4 +1,11 @@
-/* Speeds to avoid: responses at the orders of the rotary speed, compared with limits (eq:response.severity). */
+/* Speeds to avoid: responses at the orders of the rotary speed, compared with limits (eq:response.severity). Order k
+ * shakes with w = k Omega, so each order is one frequency response over the band k speed_low .. k speed_high in
+ * inertial axes, and its frequencies divided by k are speeds. Then, over the speeds of all curves, severities are added
+ * and bands above the threshold are read off (speeds_bands.c).
+ *
+ * The result is qualified by DMB_NOTE_INCOMPLETE, because "no band" would be an all-clear: orders that move no output,
+ * no damping at all, bands cut off by the ends of the range, and effects that a response neglects. A list of bands that
+ * is too short is DMB_NOTE_FULL. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -132,6 +139,7 @@ static dmb_response_options response_options(const speeds_run *r, double order)
     return options;
 }
 
+/* Progress of the nested response is a part of that of this call. */
 static int32_t follow_order(speeds_run *r, uint32_t k)
 {
     dmb_order order;
@@ -166,6 +174,7 @@ static dmb_speeds_curve *first_of(const speeds_run *r)
     return first;
 }
 
+/* Merges the ascending speeds of all curves: refinement has placed points of each order at its own peaks. */
 static int32_t gather_speeds(speeds_run *r)
 {
     for (uint32_t k = 0; k < r->order_count; k++) r->points += r->curves[k].count;
@@ -191,6 +200,8 @@ static void write_bands(const speeds_run *r, dmb_speed_band *bands)
 }
 
 /* Points of all curves belong to the speed of the grid that is nearest. */
+/* A grid value is the largest severity of the grid point and of all points nearer to it than to others, so that no peak
+ * is lost between two grid points. */
 static void write_severity(const speeds_run *r, double *severity)
 {
     const double low = r->options.speed_low, last = r->options.points - 1;

@@ -103,6 +103,8 @@ static double crossing(const search *s, double a, double at_a, double b, double 
     return a + (b - a) * (s->options->threshold - at_a) / (at_b - at_a);
 }
 
+/* One pass over the ascending speeds. Severity is straight between them, so a band begins and ends where the line meets
+ * the threshold, widened by the margin; at an end of the range it is marked as truncated. */
 uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options *options, dmb_speed_band *bands,
                           uint32_t room, int32_t *truncated)
 {
@@ -131,5 +133,3 @@ uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options
     }
     return s.count;
 }
-
-/* Safe speeds: the frequency response at each order of the rotary speed, held against limits. */

@@ -229,6 +229,8 @@ static int32_t run_window(sine_run *r)
 /* ---- Settling ---------------------------------------------------------------------------------------------------- */
 
 /* Largest difference of a harmonic between the two windows over the largest harmonic of the output. */
+/* Relative to the largest harmonic of the output, but not below floor/tolerance: an output that hardly moves counts as
+ * settled at the absolute change `floor`. */
 static double change_of(const sine_run *r, uint32_t o)
 {
     const double *A = r->sum + (size_t)r->width * o, *B = r->last + (size_t)r->width * o;
@@ -256,6 +258,8 @@ static double remaining(const sine_run *r)
     return q < 1.0 ? fmax(r->change[1], r->change[1] * q / (1.0 - q)) : r->change[1];
 }
 
+/* At least three windows: a change needs two, its ratio three. The last window is the result even if it has not settled
+ * (DMB_NOTE_STOPPED). */
 static int32_t settle(sine_run *r)
 {
     const size_t bytes = (size_t)r->outputs * r->width * sizeof(double);

@@ -1,4 +1,17 @@
-/* Creation and destruction of sensitivities: checks of the parameters, and initial rates. */
+/* Creation and destruction of sensitivities: checks of the parameters, and initial rates (eq:sensitivity.step).
+ *
+ * A parameter is a pair of sims, low and high, whose models differ in numbers only. The difference quotient compares
+ * the same entries of their states, and companion steps use the factors, breakpoints and partition of the sim.
+ * Therefore a side is refused, with the first that applies, unless it has
+ *
+ *     same_make       equal nodes, elements, solved rows, drives, constraints, targets of inputs and laws
+ *     same_corners    equal breakpoints of time functions: all sides end their steps there
+ *     time            the time of the sim
+ *     same_inputs     the same inputs and drives set, the same joints locked or open, the same points stuck
+ *     arrived inputs  no input on its way to a set point
+ *
+ * After an error no handle exists and the sims are unchanged; afterwards only the models of the sides are kept, by
+ * reference. */
 #include <math.h>
 #include <string.h>
 
@@ -224,6 +237,7 @@ static int32_t check_scene(dmb_sim *sim)
     return DMB_OK;
 }
 
+/* One block for the handle and all arrays; the first call, on a counting arena, has no memory and measures only. */
 static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t count, size_t numbers)
 {
     dmb_sensitivity nothing, *made = dmb_arena_allocate(arena, 1, sizeof nothing, DMB_ALIGNMENT);
@@ -272,6 +286,8 @@ static void align(const dmb_sim *sim, const double *as, double *quaternion)
     }
 }
 
+/* Initial rates dy0/dp = (high - low)/(2 step) of all numbers of the state: the two sims may be in different states,
+ * for example the static equilibrium of each. */
 static void read_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_rated_parameter *p)
 {
     const size_t quaternions = (size_t)(dmb_rates_of(s, p, s->sim->now.quaternion) - p->rates);

@@ -29,6 +29,8 @@ static int32_t output_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, i
     return status;
 }
 
+/* Outputs need no companion step: they are functions of the state and the scene, evaluated at y +- step dy/dp. Both
+ * sides are used, also for one-sided parameters. */
 static int32_t output_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, const dmb_output *output, double *rate)
 {
     double value[2] = {0.0, 0.0};
@@ -65,6 +67,7 @@ static int32_t check_outputs(const dmb_sensitivity *s, const dmb_output *outputs
     return DMB_OK;
 }
 
+/* All outputs are checked before the first is written. The sim keeps its state; only the worker moves. */
 int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *outputs, uint32_t count, double *values,
                                 double *derivatives)
 {

@@ -1,4 +1,13 @@
-/* Rates along steps: companion steps on both sides of each parameter for every attempted step of the sim. */
+/* Rates along steps (eq:sensitivity.step): companion steps on both sides of each parameter for every step of the sim.
+ *
+ *     dmb_sim_step, _advance        the sim steps
+ *       dmb_sensitivity_companions  called before a converged step is accepted:
+ *         jump_all                    accelerations of the sides, if those of the sim were recomputed (a breakpoint)
+ *         follow_all                  worker to the sim's state; factors; for each parameter high, low -> rates
+ *     dmb_sensitivity_settle        rates accepted, or restored if the step was not
+ *
+ * `seen` holds displacements, velocities and accelerations of the sim to which the rates belong: it detects calls that
+ * moved the sim without its rates (an error) and recomputed accelerations (a jump). */
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
@@ -13,6 +22,8 @@ static uint64_t mix(uint64_t hash, int flag)
     return (hash ^ (flag != 0 ? UINT64_C(1) : UINT64_C(0))) * UINT64_C(0x100000001B3);
 }
 
+/* Controllers: limits and the interval of the gain table. Actuators: rate limit, sign of speed where drag has two
+ * values, torque-speed curve. */
 static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
 {
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
@@ -93,6 +104,9 @@ static int32_t jump_beside(dmb_sensitivity *s, const dmb_nominal_step *nominal, 
     return DMB_OK;
 }
 
+/* Both sides start from the present rates, which are replaced only after both have succeeded. A difference of their
+ * switches, also from those of the sim for a one-sided parameter, is counted: the quotient is then a mean of two
+ * one-sided derivatives. */
 static int32_t move_parameter(dmb_sensitivity *s, const dmb_nominal_step *nominal, move move_beside,
                               dmb_rated_parameter *p, uint64_t middle_sides)
 {
@@ -173,6 +187,8 @@ static int32_t move_all(dmb_sensitivity *s, const dmb_nominal_step *nominal, mov
     return DMB_OK;
 }
 
+/* The factors of the sim's tangent are prepared once for all companion steps. A one-sided parameter needs a companion
+ * step of the sim itself, so that the error of the correction is equal on both ends of the difference and cancels. */
 static int32_t follow_all(dmb_sensitivity *s, const dmb_nominal_step *nominal)
 {
     dmb_sensitivity_stand(s);
@@ -273,6 +289,9 @@ static int32_t refuse(const dmb_sensitivity *s, int32_t status)
 
 /* A step or an advance of the sim with the rates. A failed step restores all of it; a failed advance keeps its
  * completed steps. */
+/* Order of the checks before the step: live handle, sim not moved otherwise, inputs as at creation, accelerations. The
+ * follower is attached only during the call. After a failed step, and after a failed advance whose last companion steps
+ * were not accepted, the rates are those of the last accepted state. */
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);

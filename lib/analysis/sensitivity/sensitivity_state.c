@@ -1,4 +1,6 @@
-/* Perturbed states: their fields, how they are read and set. */
+/* Perturbed states y +- step dy/dp: their fields, how they are read and set. The state as one array of numbers is the
+ * list of fields of sim/sim.h in its order: configuration, then memory; fields that are no numbers (contact segments,
+ * flags) are taken from the sim, the partition is that of the factors. */
 #include "analysis/sensitivity/sensitivity.h"
 
 #include <math.h>
@@ -55,6 +57,7 @@ static void normalise(const dmb_sim *sim, double *quaternion)
     }
 }
 
+/* The scene may be that of a side, left by the companion step before. */
 void dmb_sensitivity_stand(dmb_sensitivity *s)
 {
     s->worker->scene = s->sim->scene;
@@ -63,6 +66,8 @@ void dmb_sensitivity_stand(dmb_sensitivity *s)
     for (uint32_t k = 0; k < s->worker->scene->cluster_count; k++) dmb_cluster_note_places(s->worker, k);
 }
 
+/* Quaternions are moved as four numbers and normalised: the difference to a rotation by the rate is of second order and
+ * the same on both sides. The worker enters the scene of that side; its inputs keep their present values. */
 void dmb_sensitivity_aside(dmb_sensitivity *s, const dmb_rated_parameter *p, int side)
 {
     const double step = side == DMB_SIDE_HIGH ? p->step : -p->step, *rate = p->rates;

@@ -1,4 +1,14 @@
-/* State equations: creation and destruction, origin of the coordinates, rates. */
+/* State equations y' = f(t, y) (eq:joints.state-equation): creation and destruction, origin of the coordinates, rates.
+ * One evaluation, always from the origin, so that f is a function of (t, y) alone:
+ *
+ *     check_numbers             finite, time not before the inputs were set
+ *     dmb_state_find_pose       z of all rows: independent ones from y, prescribed ones, dependent ones by C(z, t) = 0
+ *     dmb_state_find_velocity   v of all rows (eq:joints.velocity-partition)
+ *     dmb_system_jump           accelerations of that state, as at a breakpoint of a run
+ *     write_rates               z' by the chart (eq:joints.chart-rate), v'
+ *
+ * After an error the copy holds no state: dmb_state_equation_sim returns NULL until an evaluation succeeds. Origin and
+ * partition are unchanged. */
 #include "analysis/state_equation/state_equation.h"
 
 #include <math.h>
@@ -82,6 +92,8 @@ static int32_t choose(const dmb_state_equation *s)
     return status;
 }
 
+/* One kind for each row; later ones overwrite earlier ones: free or supported, moved by a drive, dependent by the
+ * partition. */
 static void mark_rows(dmb_state_equation *s)
 {
     const dmb_scene *scene = s->work->scene;
@@ -157,6 +169,7 @@ static void accept_motion(dmb_state_equation *s, double time)
     work->clock->rest = 0.0;
 }
 
+/* The gimbal singularity is checked before the state is accepted: angles of joints are undefined there. */
 static int32_t evaluate(dmb_state_equation *s, double time, const double *y)
 {
     dmb_sim *work = s->work;
@@ -175,6 +188,7 @@ static int32_t evaluate(dmb_state_equation *s, double time, const double *y)
     return DMB_OK;
 }
 
+/* s->older, the place before in the search for the pose, is free here and holds z' of all rows. */
 static void write_rates(const dmb_state_equation *s, double *rate)
 {
     const dmb_scene *scene = s->work->scene;

@@ -1,4 +1,11 @@
-/* Parts of a scene whose forces depend on more than pose, velocity and time. */
+/* Parts of a scene whose forces depend on more than pose, velocity and time, so that no f(t, y) of
+ * eq:joints.state-equation exists. Two kinds are refused:
+ *
+ *     memory of forces    wall that is cut, bristle friction and the caller's friction, restitution by the impact
+ *                         speed, rock, stuck points, integral gains, actuators with dynamics, states of forces
+ *     path of positions   motion drives about axes that turn, nonholonomic constraints: rows of y would not suffice
+ *
+ * A part that is refused names the setting without memory, if one exists. */
 #include "analysis/state_equation/state_equation.h"
 #include "sim/node.h"
 #include "system/assemble/actuators.h"

@@ -52,6 +52,7 @@ static void turn_back(const chart *c, const double w[3], double out[2])
 }
 
 /* Rotation of the node from that of the origin, as a quaternion. */
+/* S = exp(0, a, b) Rx(phi) of eq:joints.chart: the swing first, then the twist about the node's own axis. */
 static void relative_rotation(const double *z, double q[4])
 {
     const double tilt[3] = {0.0, z[4], z[5]}, half[4] = {dmb_cos(0.5 * z[3]), dmb_sin(0.5 * z[3]), 0.0, 0.0};
@@ -60,6 +61,8 @@ static void relative_rotation(const double *z, double q[4])
     dmb_quat_mul(swing, half, q);
 }
 
+/* The twist is unwrapped to the revolution that phi predicts, so that rotations of many revolutions keep their
+ * count. */
 static void place_six_dof(const dmb_state_equation *s, uint32_t i, const double *z)
 {
     const dmb_scene *scene = s->work->scene;
@@ -89,6 +92,7 @@ static void place_nodes(const dmb_state_equation *s)
     }
 }
 
+/* Solves eq:joints.chart-rate for a', b' by the 2 x 2 part of T in y and z, then for phi' by its x component. */
 void dmb_state_chart_rate(const dmb_state_equation *s, uint32_t node, const double *v, double *rate)
 {
     const dmb_block_layout *layout = &s->work->scene->layout;
@@ -257,6 +261,9 @@ static double size_of(const dmb_state_equation *s)
     return s->work->reduced_mode->size + far;
 }
 
+/* Newton in the dependent coordinates. It ends at rounding (DMB_STATE_CLOSED), or where it stagnates at a violation
+ * that is still small; a larger one after ITERATIONS_MAX is no convergence. A partition whose quality has fallen below
+ * a fraction of that at the origin is singular for this state: the caller moves the origin. */
 static int32_t close_joints(const dmb_state_equation *s, dmb_evaluation *evaluation)
 {
     double last = (double)INFINITY;
@@ -347,6 +354,7 @@ static int32_t count_strides(const dmb_state_equation *s, const double *y, doubl
 }
 
 /* z at the fraction `part` of the way: independent and prescribed rows, and a guess of the dependent ones. */
+/* The guess of dependent coordinates continues their last stride in a straight line. */
 static void go_to(const dmb_state_equation *s, const double *y, double part)
 {
     const dmb_sim *work = s->work;

@@ -1,4 +1,14 @@
-/* State-space analysis: options, linear system, inputs and outputs, memory, and queries of the result. */
+/* State-space analysis: options, linear system, inputs and outputs, memory, and queries of the result. Order of `run`:
+ *
+ *     linearise          M, C, K about the state, an equilibrium within the tolerance; the whole matrices and the
+ *                        Jacobian by all rows, which are results of their own
+ *     read_inputs        inputs as forces, motions or targets of controllers; each may add states (integrals)
+ *     read_outputs       outputs as linear functions of the motion and the forces
+ *     make_room          STATES_MAX is checked before memory is allocated
+ *     make_basis, fill   X, then A, B, C, D (eq:response.state-space); not of DMB_STATE_MATRICES
+ *
+ * Coefficients that are not constant are neglected with DMB_NOTE_INCOMPLETE. After an error the result is released and
+ * *space is NULL; the sim is never changed. */
 #include "analysis/state_space/state_space.h"
 
 #include <math.h>
@@ -46,6 +56,8 @@ static int32_t read_options(dmb_sim *sim, const dmb_state_space_options *given, 
 
 /* ---- Preparation ------------------------------------------------------------------------------------------------- */
 
+/* Forces that do not balance are absent from A: the linear system would describe motion about a state that does not
+ * rest. Matrices alone are well defined at every state. */
 static int32_t check_balance(const dmb_space_work *w)
 {
     const dmb_linear *linear = w->linear;
@@ -115,6 +127,7 @@ static int32_t allocate_work(dmb_space_work *w)
     return DMB_OK;
 }
 
+/* An unbalance is refused, since its force grows with the square of the frequency: it is no constant column of B. */
 static int32_t read_inputs(dmb_space_work *w, const dmb_excitation *inputs)
 {
     for (uint32_t i = 0; i < w->input_count; i++) {
@@ -188,6 +201,7 @@ static int32_t make_room(dmb_space_work *w)
 
 /* ---- The analysis ------------------------------------------------------------------------------------------------ */
 
+/* Order of the states: q, w, then the additional states of each input in the order of the inputs. */
 static void number_states(dmb_space_work *w)
 {
     dmb_state_space_info *info = &w->space->info;

@@ -1,4 +1,6 @@
-/* Basis of the coordinates: unit motions, or modes and quasi-static shapes orthonormalised in M. */
+/* Basis X of the coordinates (eq:response.state-space): unit motions of all independent coordinates, or of a reduced
+ * model modes first, then quasi-static shapes, orthonormalised in M in this order: the modes keep their span, and a
+ * static shape adds only its part that the modes do not contain. */
 #include <math.h>
 #include <string.h>
 
@@ -72,6 +74,7 @@ static uint32_t mode_count(const dmb_space_work *w)
     return w->options.mode_list != NULL ? w->options.mode_count : w->options.modes->count;
 }
 
+/* A damped mode adds real and imaginary part: together they span the plane in which it moves. */
 static int32_t add_modes(dmb_space_work *w)
 {
     const dmb_modes *modes = w->options.modes;
@@ -90,6 +93,7 @@ static int32_t add_modes(dmb_space_work *w)
 
 /* ---- Quasi-static shapes ----------------------------------------------------------------------------------------- */
 
+/* K + w0^2 M, w0 = 2 pi shift: regular with unconstrained motions, too, if shift > 0. */
 static int32_t factor(dmb_space_work *w)
 {
     const double omega = DMB_TWO_PI * w->options.shift;
@@ -116,6 +120,8 @@ static void add_solution(dmb_space_work *w)
     add_shape(w, x);
 }
 
+/* For a force its static response; for a prescribed motion p the responses to the three forces by which it acts on
+ * other rows, K p, C p and M p. */
 static int32_t add_statics(dmb_space_work *w)
 {
     const uint32_t rows = w->linear->rows;

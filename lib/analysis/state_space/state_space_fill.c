@@ -1,4 +1,13 @@
-/* A, B, C and D from the basis, the inputs and the outputs. */
+/* A, B, C and D from the basis, the inputs and the outputs (eq:response.state-space; head comment of state_space.h).
+ * The states are q (r of them), w (r), then those of the inputs. Entries of the rows of w are multiplied by M_x^-1 X^T:
+ *
+ *     input                 states of its own   columns of A in w         columns of B
+ *     force                 -                   -                         w: f
+ *     controller's target   e' = u              k_i f of e                w: k_p f; e: 1
+ *     motion, speed         xi' = u             -K p of xi                q: B_1; w: -C p - C_x B_1; xi: 1
+ *     motion, acceleration  xi'' = u            -K p of xi, -C p of xi'   w: -M p; xi': 1
+ *
+ * and for the motion itself A has I in (q, w), -K_x in (w, q) and -C_x in (w, w). */
 #include <math.h>
 #include <string.h>
 
@@ -57,6 +66,8 @@ static void subtract_motion(dmb_space_work *w, const dmb_linear_matrix *A, const
     for (uint32_t i = 0; i < r; i++) A_row(w, r + i)[column] = -g[i];
 }
 
+/* Column by column: one product with K and C and one reduction for each shape. The call can be cancelled between
+ * columns. */
 static int32_t fill_motion(dmb_space_work *w)
 {
     const uint32_t r = count(w);
@@ -78,6 +89,7 @@ uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_linear_excitatio
     return input->law == DMB_EXCITE_CONTROL && input->integral_gain != 0.0;
 }
 
+/* A controller whose target is the input has the additional state e' = u of its integral gain. */
 static void fill_force(dmb_space_work *w, uint32_t i)
 {
     const dmb_linear_excitation *e = w->inputs + i;
@@ -112,6 +124,7 @@ static void fill_speed(dmb_space_work *w, uint32_t i, const double *by_mass, con
     }
 }
 
+/* xi'' = u: xi and its rate are states, so that no derivative of the input occurs and B_1 is not needed. */
 static void fill_acceleration(dmb_space_work *w, uint32_t i, const double *by_mass, const double *by_speed)
 {
     const uint32_t r = count(w), state = w->input_state[i];
@@ -153,6 +166,8 @@ static void add_accelerations(dmb_space_work *w, const double *by_shape, double 
 }
 
 /* 1: the coefficient of the rate of speed i in the output is at the rounding level. */
+/* An output with T d'' contains T (p + X B_1) u' for a speed input u. It is acceptable only if the drive's motion and
+ * the motion of the free parts that its inertia causes cancel in the output. */
 static int feels_no_rate(const dmb_space_work *w, const dmb_output_rows *o, const double *by_shape, uint32_t i)
 {
     const double *p = w->inputs[i].re;
@@ -244,6 +259,7 @@ static int32_t factor_mass(dmb_space_work *w)
     return DMB_ERR_SINGULAR;
 }
 
+/* Outputs last: those with accelerations need the rows of w in A and B. */
 int32_t dmb_space_fill(dmb_space_work *w)
 {
     int32_t status = factor_mass(w);
@@ -260,6 +276,8 @@ int32_t dmb_space_fill(dmb_space_work *w)
  * the coefficient of each row's force, a_r = -(output for a unit force on row r without motion). */
 
 /* a_r of one row. */
+/* By evaluation of the response's own output with a unit force alone: its sign and fractions are defined in one
+ * place. */
 static double fraction_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
                               dmb_complex_array force, uint32_t row)
 {

@@ -1,5 +1,7 @@
 /* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system
- * stores the forces of a constrained row separately: its column in constrained_columns, its row in constrained_rows. */
+ * stores the forces of a constrained row separately: its column in
+ * constrained_columns, its row in constrained_rows, six entries each of the node before, of the node and of the node
+ * after. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -39,6 +41,7 @@ static void add_entry(builder *b, uint32_t column, const double entry[3])
     for (uint32_t k = 0; k < b->to->kinds && k < 3; k++) b->to->value[k][b->at[column]] += entry[k];
 }
 
+/* Constrained columns take precedence: an entry of two constrained rows is in the column of the second. */
 static void add_block_entry(builder *b, uint32_t i, uint32_t r, uint32_t j, uint32_t c)
 {
     const dmb_linear *l = b->linear;
@@ -74,6 +77,7 @@ static void add_joint_entries(builder *b, const dmb_constraint *c, uint32_t a, u
         }
 }
 
+/* Entries of a row: neighbours in the chain, then all nodes of the constraints at this node. */
 static void add_row(builder *b, uint32_t node, uint32_t r)
 {
     const dmb_scene *scene = &b->linear->scene;
@@ -158,6 +162,7 @@ void dmb_sparse_rows_release(const dmb_allocator *allocator, dmb_sparse_rows *sp
     memset(sparse, 0, sizeof *sparse);
 }
 
+/* Two passes with the same code: the first one counts the entries, the second one stores them. */
 static int32_t build(const dmb_linear *linear, void (*add)(builder *), uint32_t kinds, dmb_sparse_rows *out)
 {
     const dmb_scene *scene = &linear->scene;

@@ -31,6 +31,8 @@ static void look(dmb_space_work *w, dmb_linear_turned *turned, double omega)
     }
 }
 
+/* M, C and K are computed again after further rotation of the rotating parts; the forces of the responses must not
+ * change by more than dmb_linear_check_change permits. */
 int32_t dmb_space_note_turning(dmb_space_work *w, const dmb_linear_options *how)
 {
     dmb_linear_turned turned;

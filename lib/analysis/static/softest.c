@@ -228,6 +228,8 @@ static double expect(dmb_softest *s, double *x)
 
 /* A lower bound near the expected value, which is counted: positive, or for an unstable state negative. *high: the
  * least number below which eigenvalues were counted, or infinite. 0 if there is none. */
+/* From 0.9 of the expected value in steps of 0.6 down to 1e-6 of it, then 0, then negative numbers whose size grows
+ * about fourfold: an unstable state has a negative lowest value of unknown size. */
 static int find_below(dmb_softest *s, double expected, double *low, double *high)
 {
     const double unit = fabs(expected);
@@ -280,6 +282,14 @@ static int32_t find_by_counts(dmb_softest *s, double unit, double low, double hi
     return DMB_OK;
 }
 
+/* After each start eigenvalues are counted below value - margin:
+ *
+ *     Lanczos vectors  eigenvalues there   then
+ *     converged        none                done
+ *     converged        some                bisection by counts: a lower value was missed
+ *     not converged    none                next start from this nearer bound, with the last shape
+ *     not converged    some                next start from the same bound; `high` is lowered
+ *     either           not countable       bisection by counts */
 static int32_t find(dmb_softest *s, int guessed, double *value, double *x)
 {
     const double expected = guessed ? *value : expect(s, x), unit = fabs(expected);

@@ -210,6 +210,7 @@ static int32_t go_on(void *context)
     return dmb_progress_pulse(context);
 }
 
+/* Number of eigenvalues: solved rows less the independent constraints of the joints. */
 static uint32_t coordinates_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -311,6 +312,9 @@ static int32_t factor_again(dmb_static_search *state)
     return DMB_OK;
 }
 
+/* Eigenvalues nearest 0, and whether they are all that matter: beyond the last one found, of modulus 1/last, none is
+ * negative if a symmetric part raised by that modulus is positive definite. That test overwrites the factors, which are
+ * restored even after an error. */
 static int32_t look(search *s)
 {
     dmb_sim *sim = s->state->sim;
@@ -345,6 +349,9 @@ static int32_t look_at_all(search *s)
     return status == DMB_ERR_NO_CONVERGENCE ? DMB_OK : status;
 }
 
+/* The sign of det K is the parity of the number of negative real eigenvalues, because complex pairs have positive
+ * products: a count of the wrong parity has missed one. -1 is returned if no count was complete or had the right
+ * parity. */
 static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_stability *out)
 {
     search s = {.state = state,

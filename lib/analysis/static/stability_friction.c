@@ -1,3 +1,9 @@
+/* Rows of K combined such that the wall's stiffness is symmetric although friction slips (eq:static.friction-turned).
+ *
+ * With n the normal of a ring and f the friction of a unit normal force, the ring's tangent is k (n + f) n^T, whose
+ * symmetric part is indefinite. W = I - f n^T = I - E turns it into k n n^T, since f . n = 0. Elements lose symmetry by
+ * E K instead. x^T E K x is bounded by the energy norms of x and E^T x, and the latter is small only if E varies slowly
+ * along the string: therefore E is interpolated between rings instead of being 0 there. */
 #include "analysis/static/static.h"
 
 #include <math.h>
@@ -6,7 +12,7 @@
 #include "base/memory.h"
 #include "system/assemble/assemble.h"
 
-/* Largest |f| for which the criterion applies. */
+/* Largest |f| for which the criterion applies: it keeps the divisor 1 - |f|/2 of the bound above 0.1. */
 #define DMB_FRICTION_MOST 1.8
 
 enum { ENTRIES = 18 };

@@ -121,6 +121,9 @@ static const char *gimbal_singularity_of_joint(const dmb_static_search *search, 
     return text->text;
 }
 
+/* Remedy after no convergence, the first that applies: drive at its limit, joint near its gimbal singularity, tension
+ * in a bend with long elements, stiff wall, general advice. dmb_static_find_pull overwrites the trial; the remedies
+ * that read it come before. */
 static const char *remedy(dmb_static_search *search, dmb_message *text)
 {
     dmb_static_pull pull;
@@ -151,6 +154,9 @@ static const char *remedy(dmb_static_search *search, dmb_message *text)
                : "; more load_steps, shorter elements or a run in time with damping may get there";
 }
 
+/* The first cause that applies: a callback, a gimbal flip, constraints that cannot be satisfied, a spin without
+ * balance, a singular block, excessive rotation of an element, no convergence. If a string has no axial constraint, the
+ * last two are its consequences, therefore it is named in front of them. */
 void dmb_static_explain(dmb_static_search *search, int32_t status)
 {
     dmb_sim *sim = search->sim;

@@ -30,6 +30,8 @@ static int lies(const dmb_scene *scene, uint32_t s)
 
 /* ---- By weight --------------------------------------------------------------------------------------------------- */
 
+/* Places the node on the low side of its cross-section of the hole, with the penetration that its weight across causes.
+ * In a vertical hole (less than 1e-9 of the weight across) no side is low, and the node stays. */
 static void guess_site(dmb_sim *sim, const dmb_site *site)
 {
     const dmb_scene *scene = sim->scene;
@@ -80,6 +82,7 @@ int dmb_static_tensions(dmb_sim *sim, uint32_t string)
     return 1;
 }
 
+/* Largest tension of all strings, with sqrt(EI/T) of its element by the softer bending direction. */
 static void take(const dmb_scene *scene, uint32_t string, const double *tension, dmb_static_pull *most)
 {
     const dmb_string_map *map = scene->strings + string;
@@ -94,6 +97,8 @@ static void take(const dmb_scene *scene, uint32_t string, const double *tension,
     }
 }
 
+/* The tension is that of the starting pose, by weight, loads and drives without stretch or friction. Only in curved
+ * holes and without joints. A failed evaluation counts as "no tension", unless its error is final. */
 int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
 {
     dmb_sim *sim = search->sim;
@@ -177,6 +182,8 @@ void dmb_static_guess_by_pull(dmb_static_search *search)
     }
 }
 
+/* The penetration under T k l grows as the stiffness to the power -1/p. For each ring the factor is (part clearance /
+ * penetration)^p; the largest one is returned, within 1 .. DMB_SOFTEST. */
 double dmb_static_softness(const dmb_static_search *search, const dmb_static_pull *pull, double part)
 {
     const dmb_scene *scene = search->sim->scene;
@@ -213,6 +220,7 @@ int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *ou
     return least < DMB_STIFF_WALL;
 }
 
+/* Starts from the accepted state `now`: a strategy that failed leaves nothing in the next one. */
 int32_t dmb_static_begin(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;

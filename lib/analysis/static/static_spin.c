@@ -52,9 +52,3 @@ void dmb_static_correct_spins(dmb_static_search *search)
             sim->correction[scene->layout.row[k] + dmb_static_spin_row(scene, k)] -= angle;
     }
 }
-
-/* ---- Chains without joints: by K w ------------------------------------------------------------------------------- */
-
-/* ---- Jointed chains: by unit torques --------------------------------------------------------------------------------
- * With stiffness k added at the candidates, (K + k E E^T) z = k e_c. The fraction of the torque that other supports
- * carry is 1 - E^T z; this matrix is singular if K is, and its null space is that of K restricted to the candidates. */

@@ -1,4 +1,13 @@
-/* Spins that nothing resists: how they are found, and the check that the state found did not need them. */
+/* Unconstrained spins of strings: the search for them, and the check that the equilibrium does not depend on their
+ * constraint. Joints may carry a torque to other parts, so that jointed chains need a global criterion:
+ *
+ *     chain without joints   K w + e_x x r = 0 in all solved rows, up to rounding (eq:static.spin)
+ *     jointed chain          with stiffness k added at the candidates c, (K + k E E^T) z = k e_c: the fraction of the
+ *                            torque that other supports carry is 1 - E^T z. This matrix is singular if K is, and its
+ *                            null space is that of K restricted to the candidates
+ *
+ * The second criterion factorises K, and is used only if a jointed chain has a candidate. The spins found by the first
+ * one take part in it: without the stiffness added there K would be singular. */
 #include "analysis/static/static.h"
 
 #include <math.h>
@@ -63,6 +72,8 @@ static int nothing_resists(dmb_sim *sim, const dmb_chain *chain)
     return 1;
 }
 
+/* M (n, n), column by column: the fraction of the torque at candidate c that is missing at candidate i.
+ * DMB_ERR_SINGULAR if a motion other than these spins is unconstrained, too. */
 static int32_t shares(dmb_static_search *search, double *M)
 {
     dmb_sim *sim = search->sim;
@@ -129,6 +140,8 @@ static void list(dmb_static_search *search, int jointed)
     }
 }
 
+/* Keeps the candidates without a pivot, one for each dimension of the null space. A matrix that is singular despite the
+ * added stiffness constrains no spin: the iteration that follows fails and names the block. */
 static int32_t keep_unresisted(dmb_static_search *search)
 {
     double M[DMB_STATIC_SPINS * DMB_STATIC_SPINS];
@@ -149,6 +162,8 @@ static int32_t keep_unresisted(dmb_static_search *search)
     return DMB_OK;
 }
 
+/* Chains without joints first: their spins are certain, those of jointed chains are candidates. Beyond DMB_STATIC_SPINS
+ * strings an unconstrained spin is not constrained, and the iteration finds a singular matrix. */
 int32_t dmb_static_find_spins(dmb_static_search *search)
 {
     search->spin_count = 0;
@@ -161,6 +176,8 @@ int32_t dmb_static_find_spins(dmb_static_search *search)
     return search->spin_count > alone ? keep_unresisted(search) : DMB_OK;
 }
 
+/* Evaluates once without the constraints: the residual of the constrained rows must vanish in the norm of all rows.
+ * Otherwise the spin with the largest torque is named. */
 int32_t dmb_static_check_spins(dmb_static_search *search)
 {
     const uint32_t count = search->spin_count;

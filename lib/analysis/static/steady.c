@@ -1,4 +1,9 @@
-/* Velocities, residual and tangent of a steady state (static.h). */
+/* Velocities, residual and tangent of a steady state (static.h). One evaluation:
+ *
+ *     1. dmb_steady_move      V and V' of all nodes at the trial's poses (eq:sliding.motion), joints included
+ *     2. read_damping         C = dr/dV, only if a tangent is requested
+ *     3. dmb_system_evaluate  r(H, V, V') and dr/dH, as in a step, with friction, damping and rock cutting
+ *     4. K += C ad(g)         because V follows the pose (eq:sliding.tangent) */
 #include "analysis/static/static.h"
 
 #include <string.h>
@@ -20,6 +25,8 @@ static void position_of(const dmb_sim *sim, uint32_t node, double R[9], double x
     dmb_vec3_add(x, sim->scene->reference_position + 3 * (size_t)node, x);
 }
 
+/* V = Ad(H^-1) X (eq:kinematics.adjoint): all nodes share the world twist X, each in its own axes. The body-frame
+ * velocities are constant, so that V' = 0. */
 static void move_rigid(dmb_steady *steady, dmb_sim *sim, double factor)
 {
     const dmb_scene *scene = sim->scene;
@@ -61,6 +68,9 @@ static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v
     for (int i = 0; i < 6; i++) a[i] = -a[i];
 }
 
+/* Velocities of all string nodes. Each loop overwrites the one before: motion along the hole, then supports (0), then
+ * motion drives, whose rows are constrained, too. The frame velocity g of a driven row follows along the hole only: the
+ * rotation by a drive is the spin w, which the axes of g do not share. */
 static void slide_strings(dmb_steady *steady, dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -102,10 +112,16 @@ static double change_of(const dmb_steady *steady, const dmb_sim *sim, const doub
     return most > 0.0 ? change / most : 0.0;
 }
 
+/* [-] Largest change that joints may make to the prescribed speeds, relative to the largest speed, and number of
+ * projections of slide_bodies. The projections go on to a thousandth of that bound: their own error does not decide the
+ * check. */
 #define DMB_STEADY_JOINTS 1e-9
 #define DMB_STEADY_TRIES 300
 
-/* Velocities of bodies that joints connect to strings of given motion: alternating projections onto both. */
+/* Velocities of bodies that joints connect to strings of given motion: alternating projections onto the velocities that
+ * the joints permit and onto the given ones of the strings. They converge to a common point if one exists; otherwise
+ * `violation` remains, and dmb_steady_check_joints refuses the motion. The strings come last and keep their speeds
+ * exactly. */
 static int32_t slide_bodies(dmb_steady *steady, dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -142,6 +158,7 @@ static int32_t violation_of_rigid(dmb_steady *steady, dmb_evaluation *evaluation
     return status;
 }
 
+/* Velocities 0 of nodes outside strings: start of the projections of slide_bodies. */
 static void rest_bodies(const dmb_steady *steady, dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -260,6 +277,8 @@ static int32_t check_lines(dmb_sim *sim, double most)
     return status;
 }
 
+/* A joint coordinate with a spring must rest: J V = 0, with the row J of the coordinate (eq:joints.coordinates).
+ * Coordinates with a damper alone may move, because their force is constant at a constant rate. */
 int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -295,8 +314,8 @@ static void copy(const double *from, size_t count, double *to)
     memcpy(to, from, count * sizeof(double));
 }
 
-/* Damping matrix dr/dV at increments of 0: nodes and elements store it with the inertia, joints add it to their
- * stiffness. */
+/* Damping matrix C = dr/dV at increments of 0: nodes and elements store it with the inertia; joints add it to their
+ * stiffness, which evaluate() subtracts. */
 static int32_t read_damping(dmb_steady *steady, dmb_evaluation *at)
 {
     const dmb_sim *sim = at->sim;
@@ -314,6 +333,8 @@ static int32_t read_damping(dmb_steady *steady, dmb_evaluation *at)
     return status;
 }
 
+/* The joints' part of read_damping is K + C. After the second evaluation, whose velocity_factor is 0, K is subtracted
+ * from it, and the product with the frame velocity g completes the tangent (eq:sliding.tangent). */
 static int32_t evaluate(dmb_steady *steady, dmb_evaluation *at)
 {
     dmb_sim *sim = at->sim;
@@ -326,6 +347,10 @@ static int32_t evaluate(dmb_steady *steady, dmb_evaluation *at)
     return DMB_OK;
 }
 
+/* Load steps of RIGID scale the speeds by the root of the load factor: centrifugal forces, quadratic in the speeds,
+ * then grow in proportion to the other loads. Speeds of SLIDING do not change with it. The evaluation is a dynamic one,
+ * which differentiates by the increment of a step (eq:integration.iteration-matrix); the moves accumulated by the
+ * search are not such an increment and are set to 0 meanwhile. */
 int32_t dmb_steady_evaluate(dmb_steady *steady, dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;

@@ -1,5 +1,15 @@
 /* Selection of the steady state by the motion drives of a scene: its velocity, and the parts of the scene that exclude
- * it. */
+ * it.
+ *
+ *     wanted              drives move   result
+ *     AT_REST             any           rest
+ *     AUTO, slip assumed  any           rest: friction of the assumed slip represents the motion
+ *     any other           no            rest
+ *     SLIDING, RIGID      yes           that motion, or DMB_ERR_UNSUPPORTED with the part that excludes it
+ *     AUTO                yes           SLIDING, else RIGID, else rest with DMB_NOTE_NOT_STEADY
+ *
+ * AUTO that ends at rest keeps the message of RIGID, which was tried last. Any other error (callback, memory) ends the
+ * selection at once. */
 #include <math.h>
 #include <string.h>
 
@@ -73,6 +83,7 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
     return DMB_OK;
 }
 
+/* Drives of one node or of one joint act together: their twists are added before they are compared with others. */
 static uint64_t group_of(const dmb_scene_drive *drive)
 {
     return drive->joint == DMB_NONE ? drive->node : (uint64_t)1 << 32 | drive->joint;
@@ -147,6 +158,8 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
     return DMB_OK;
 }
 
+/* The wall does not change in the motion if the whole rotates about, and moves along, the axis of a straight hole:
+ * that axis is parallel to the angular velocity, and so is the velocity of its points. */
 static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
@@ -207,6 +220,8 @@ static int32_t check_supports(dmb_evaluation *evaluation, dmb_steady *steady)
     return DMB_OK;
 }
 
+/* The twist comes first, because the other checks compare with it. Supports and joints follow in try_kind: they need
+ * the velocities of the nodes. */
 static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
 {
     steady->kind = DMB_STEADY_RIGID;
@@ -286,6 +301,7 @@ static int32_t prescribe(dmb_sim *sim)
     return dmb_system_prescribe(&evaluation);
 }
 
+/* The second attempt of AUTO prescribes the drives again, because the first one has used the trial. */
 static int32_t choose(dmb_sim *sim, int32_t wanted, dmb_steady *out)
 {
     int32_t status = allocate(sim, out);
@@ -323,6 +339,8 @@ static int is_moving_so(const dmb_sim *work)
     return off <= DMB_STEADY_LIKE * most;
 }
 
+/* Refused only if the nodes of the state have the velocities of the steady motion: a state that statics found at rest
+ * is assessed although its drives move. The message of the selection is dropped and `work` restored. */
 int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who)
 {
     dmb_steady steady;

@@ -1,11 +1,22 @@
-/* Strings that slide and rotate, inertial axes: velocities from the drives, and conditions that exclude the motion. */
+/* Strings that slide and rotate, inertial axes: velocities from the drives, and conditions that exclude the motion. The
+ * symmetry of this relative equilibrium is the rotation of each string about its own axis; a part whose force depends
+ * on the rotation angle is refused:
+ *
+ *     part of a string that moves            condition                        checked by
+ *     masses, rest shape                     axisymmetric, straight           check_round
+ *     load or drive force in body axes       along or about the axis          check_turning_loads
+ *     actuator                               not along a component that moves check_turning_loads
+ *     support along or about the axis        the string does not move there   check_ends
+ *     motion drive elsewhere                 speed 0                          set_speed */
 #include <math.h>
 #include <string.h>
 
 #include "analysis/static/static.h"
 #include "sim/node.h"
 
-/* Refuses a string that rotates about its own axis if its masses are not axisymmetric or its rest shape is bent. */
+/* Refuses a string that rotates about its own axis if its masses are not axisymmetric (unbalance force g[1], g[2] and
+ * couple g[4], g[5] of eq:motion.unbalance, transverse moments of inertia that differ) or its rest shape is bent
+ * (components 4 and 5 of the rest strain). */
 static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;

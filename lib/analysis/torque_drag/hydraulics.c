@@ -32,6 +32,7 @@ typedef struct column {
 
 /* ---- One length of pipe in a hole of constant diameter ----------------------------------------------------------- */
 
+/* K of the head comment, k = kappa. */
 static double clinging(double k, int turbulent)
 {
     const double area = (1.0 - k) * (1.0 + k), logarithm = log(k);
@@ -45,6 +46,7 @@ static void largest(double value, double *of)
 }
 
 /* Pressure loss of tripping: laminar first, with the turbulent constant above the critical Reynolds number. */
+/* The limit 3470 - 1370 n is that of laminar flow of a power-law mud with the exponent n (eq:mud.turbulent). */
 static dmb_flow_loss trip_loss(const column *c, double pipe, double hole)
 {
     const double k = pipe / hole, area = dmb_ring_area(hole, pipe), displaced = dmb_ring_area(pipe, 0.0);
@@ -88,6 +90,8 @@ static void add_part(column *c, const dmb_pipe_def *pipe, int in_tool_joint, dou
         add_length(c, diameter, 2.0 * dmb_hole_radius(&c->scene->hole, to - (i + 0.5) * length), length);
 }
 
+/* The string's lower end is at `depth`: pipes of the description from the last one on, each with its tool joint at the
+ * lower end, up to the rig end. */
 static void add_string(column *c, const dmb_model *model, double start, double depth)
 {
     const dmb_pipe_run *runs = model->runs.items;
@@ -122,6 +126,8 @@ static double equivalent(const column *c, double pressure)
     return column_weight > 0.0 ? c->flow.outside + pressure / column_weight : (double)NAN;
 }
 
+/* The pump provides the losses and, if the mud inside is lighter, the difference of the two columns
+ * (eq:mud.balance). */
 static void finish(column *c)
 {
     dmb_hydraulics *sum = &c->sum;

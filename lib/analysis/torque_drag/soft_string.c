@@ -1,3 +1,9 @@
+/* Soft string of torque and drag (eq:drilling.soft-string): conditions for the model, and integration from the far end
+ * to the rig. Depths are measured depths of the hole, forces effective ones, tension positive.
+ *
+ * Pipes are those of the description, counted from its lower end, which is at the requested depth. The march returns 0
+ * if the compression exceeds COMPRESSION: the string locks up (eq:drilling.lock-up), for which the equations have a
+ * pole. */
 #include "analysis/torque_drag/soft_string.h"
 
 #include <math.h>
@@ -126,6 +132,7 @@ static void confined_at(const march *m, double depth, dmb_confined_pipe *pipe)
 }
 
 /* [-] Friction coefficient at a depth. */
+/* The wall's coefficient by depth times the factor `friction`, or that number alone. */
 static double friction_at(const march *m, double depth)
 {
     const dmb_soft_string *soft = m->soft;
@@ -136,6 +143,8 @@ static double friction_at(const march *m, double depth)
 }
 
 /* [N/m] Wall force and its derivative by N. */
+/* Beyond the helical load of eq:drilling.helical the wall carries the helix, too (eq:drilling.helix-force). A ratio
+ * that is NaN counts as beyond. */
 static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N, double *by_force)
 {
     double wall = dmb_confined_wall_force(pipe, N, by_force);
@@ -232,6 +241,9 @@ static double piece_above(const dmb_hole *hole, double depth)
 }
 
 /* [m] Depth of the end of the step from the present place; not beyond `end`, which is exact. */
+/* Steps end where the equations jump: at the end of a run of pipes, survey stations, sections of the wall and requested
+ * stations. In between they are equal, at most STEP_MAX and TURN_MAX long. At survey stations and ends a step ends on
+ * the exact number, so that it cannot step over one by rounding. */
 static double next_depth(const march *m, double end, double spacing)
 {
     const double depth = m->place.depth, start = m->soft->start;
@@ -300,6 +312,8 @@ static int march_run(march *m, double end, double spacing, dmb_soft_visit visit,
     return 1;
 }
 
+/* Runs of pipes from the last one upwards. A top within rounding of the rig end is set to it: no step of rounding
+ * length. */
 int dmb_soft_string_march(const dmb_soft_string *soft, const dmb_operation *operation, double depth, double spacing,
                           dmb_soft_visit visit, void *context)
 {

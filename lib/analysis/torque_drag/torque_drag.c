@@ -1,5 +1,7 @@
-/* Torque and drag: rows of operations and depths, profile of one operation along the string, friction factor from a
- * measurement. */
+/* Torque and drag of the soft string (eq:drilling.soft-string): rows of operations and depths (a broomstick plot has
+ * one operation at many depths), profile of one operation along the string, friction factor from a measurement. All
+ * three integrate from the far end to the rig (soft_string.c), with the string's lower end at the requested depth. The
+ * sim contributes model and present mud flow, not its state. */
 #include <math.h>
 #include <string.h>
 
@@ -17,6 +19,8 @@ DMB_DEFINE_INIT(dmb_torque_drag_row, 128, {.locked = 0})
 
 enum { DEPTHS_MAX = 1 << 20, OPERATIONS_MAX = 4096, OPERATIONS = DMB_OPERATION_BACK_REAM + 1 };
 
+/* Speeds [m/s, rad/s], downwards positive. Only their ratio matters for the soft string, which shares one friction
+ * force in that ratio: the usual values stand for "much faster along than around" and the like. */
 int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
 {
     static const double usual[OPERATIONS][2] = {
@@ -107,6 +111,7 @@ static int32_t check_depths(request *r)
     return DMB_OK;
 }
 
+/* friction >= 0 is the coefficient itself; a negative one means that of the wall, by depth, with a factor of 1. */
 static int32_t read_options(request *r, const dmb_torque_drag_options *given)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag options", DMB_NONE);
@@ -157,6 +162,8 @@ static void keep_largest(double value, double depth, double *largest, double *at
     if (at != NULL) *at = depth;
 }
 
+/* Von Mises stress (eq:drilling.von-mises) over the yield strength, with the bending moment EI k of the hole's
+ * curvature. */
 static double yield_share(const dmb_soft_place *place)
 {
     const dmb_pipe_def *pipe = place->pipe;
@@ -168,6 +175,9 @@ static double yield_share(const dmb_soft_place *place)
            (pipe->yield_strength > 0.0 ? pipe->yield_strength : (double)NAN);
 }
 
+/* Extremes along the string, and the state at the place visited last, which is the rig end. NaN (no closed form there)
+ * is kept: a share must not look small because it was not computed. transfer is the reciprocal of dN(0)/dN(L)
+ * (eq:drilling.transmission). */
 static void visit_row(void *context, const dmb_soft_place *place)
 {
     dmb_torque_drag_row *row = context;
@@ -189,6 +199,8 @@ static void visit_row(void *context, const dmb_soft_place *place)
     row->wall_force = place->state[DMB_SOFT_WALL];
 }
 
+/* A string that locks up has no readings, but its depth, and no part of a further push arrives at the bit: transfer
+ * 0. */
 static void lock(dmb_torque_drag_row *row)
 {
     const double depth = row->depth;
@@ -278,6 +290,8 @@ static void put(double *values, uint32_t i, double value)
     if (values != NULL) values[i] = value;
 }
 
+/* The march stops at every station, apart from rounding; the first place at or above a station is its value, on the
+ * deeper side of a jump. */
 static void visit_station(void *context, const dmb_soft_place *place)
 {
     sampling *s = context;
@@ -295,6 +309,7 @@ static void visit_nothing(void *context, const dmb_soft_place *place)
     (void)place;
 }
 
+/* The first march only finds out whether the string locks up, so that a failing call writes nothing. */
 static int32_t sample(request *r, const dmb_torque_drag_options *options, const dmb_operation *given, uint32_t count,
                       sampling *s)
 {
