@@ -90,6 +90,9 @@ static void assemble(dmb_dynamic_stiffness *s)
 /* ---- Factors and solution ---------------------------------------------------------------------------------------- */
 
 /* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots are on the diagonal. */
+/* Factors of rounding size are not singular to the elimination: a motion that neither stiffness nor inertia resists at
+ * this frequency would get a huge, meaningless response. The pivot is compared with the terms of which it is the
+ * difference. */
 static int64_t unconstrained_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain)
 {
     const dmb_block_layout *layout = &s->linear->scene.layout;
@@ -125,6 +128,7 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth,
     return scene->cluster_count > 0 ? dmb_jointed_chains_factor(s) : -1;
 }
 
+/* Right-hand side -A p of a prescribed motion p, which is kept for the solution d = p + x. */
 void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const size_t bytes = s->linear->rows * sizeof(double);
@@ -256,6 +260,8 @@ static void subtract_joint(const dmb_dynamic_stiffness *s, const dmb_constraint 
     }
 }
 
+/* y -= A p for all rows of a sparse p: columns of solved rows from the blocks, of constrained rows from their copies,
+ * and joints by their tangents. */
 void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, dmb_complex_array y)
 {
     const dmb_scene *scene = &s->linear->scene;
@@ -315,6 +321,7 @@ static void add_joint_row(const dmb_dynamic_stiffness *s, const dmb_constraint *
                 layout->row[c->node[b]] + q, sum);
 }
 
+/* Row of A x, also of a constrained row: the force that its support carries, with joints that act on the node. */
 dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *s, uint32_t node, uint32_t c, dmb_complex_array x)
 {
     const dmb_scene *scene = &s->linear->scene;
@@ -344,6 +351,8 @@ static void solve_multipliers(dmb_sim *sim, uint32_t k, double *rest, double *mu
                                  &partition, lu, pivot, sim->cluster_gram + cluster->square, multipliers);
 }
 
+/* Multipliers of a cluster by the dependent rows (eq:static.blocks): C_d^T f = f_d - (A x)_d for real and imaginary
+ * part. With redundant equations the solution of least norm (eq:joints.least-norm). */
 void dmb_dynamic_multipliers(const dmb_dynamic_stiffness *s, uint32_t k, dmb_complex_array x, dmb_complex_array f,
                              dmb_complex_array multipliers)
 {

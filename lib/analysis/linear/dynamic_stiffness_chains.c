@@ -1,3 +1,7 @@
+/* Dynamic stiffness of chains that joints connect: R^T M R, R^T C R and R^T K R are formed once in the blocks of the
+ * scene's pattern, and combined in complex numbers for each frequency. A block holds the independent coordinates of one
+ * cluster, or those of a node between clusters; sizes follow from the partition, so that offsets are those of the
+ * present sizes. */
 #include "analysis/linear/linear.h"
 
 #include <math.h>
@@ -66,7 +70,7 @@ static void number(const dmb_linear *linear, dmb_jointed_chains *links)
             links->place[i] += links->row[scene->node_block[dmb_node_of_row(scene, linear->row_of[i])]];
 }
 
-/* Contribution of a row to the diagonals that scale the pivots. */
+/* Contribution of a row to the scales of the pivots: R^T diag(|K|) R and R^T diag(|M|) R on the diagonal. */
 static void add_scale(const dmb_linear *linear, const dmb_jointed_chains *links, uint32_t row, double stiffness,
                       double mass)
 {

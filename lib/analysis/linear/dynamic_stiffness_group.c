@@ -1,5 +1,7 @@
 /* The dynamic stiffness at several frequencies in lanes: conversion of right-hand sides and solutions to and from the
- * layout of the kernel. */
+ * layout of the kernel, which is (row, column, part, frequency). Rows of the scene come first, then the reduced
+ * coordinates of jointed chains. The kernels assemble, factor and solve in one pass; they agree with
+ * dmb_dynamic_stiffness_solve to the bit. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -107,6 +109,7 @@ static dmb_response_blocks blocks(const double *mass, const double *damping, con
     return all;
 }
 
+/* Unused lanes repeat the last used frequency, so that they fail only where it does. */
 static void set_frequencies(const dmb_dynamic_group *group, double omega[DMB_FREQUENCIES])
 {
     for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) omega[l] = group->omega[l < group->used ? l : group->used - 1];
@@ -134,6 +137,8 @@ static uint32_t solve_jointed(const dmb_dynamic_group *group, uint32_t columns)
     return args.bad;
 }
 
+/* One bit for each frequency at which a motion is unconstrained; the caller solves these alone and reports the
+ * reason. */
 uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
 {
     const dmb_linear *linear = group->stiffness->linear;

@@ -1,5 +1,5 @@
 /* Functionals: derivatives of public queries, by evaluating them for a copy of the state in which one row at a time
- * moves. */
+ * moves. An output of a linear analysis is thus the derivative of the same query that users call. */
 #include "analysis/linear/linear.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ static void exchange_motion(dmb_sim *copy)
     exchange(&copy->now.acceleration, &copy->trial.acceleration);
 }
 
-/* Rows between are taken with 0. */
+/* Appends a row and its coefficient. Rows between the last one and this one are included with 0. */
 static void set_value(uint32_t row, double value, dmb_functional *out)
 {
     do out->row[out->count] = out->count > 0 ? out->row[out->count - 1] + 1 : row;

@@ -2,31 +2,35 @@
  *
  *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
  *
- * Six rows (translation; rotation) of a six-DOF node, H = H0 exp(d), two (along the hole; about its axis) of an axial-
- * torsional node. Rows constrained by supports and motion drives are zero, with their columns. With joints d = R z, z
- * being the independent coordinates of the partition; otherwise z are the solved rows:
+ * Six rows (translation; rotation) of a six-DOF node, H = H0 exp(d), two (along the hole; about its axis) of an
+ * axial-torsional node. Rows constrained by supports and motion drives are zero, with their columns. With joints d = R
+ * z, z being the independent coordinates of the partition; otherwise z are the solved rows:
  *
  *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
  *
- * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d,
- * with v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r
- * that steps solve, at given body-frame v and a,
+ * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d, with
+ * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
+ * steps solve, at given body-frame v and a,
  *
  *     C = C_v + M v^,     K = K_H + C_v v^ + M a^                                   (eq:modes.linear)
  *
- * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
- * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do
- * not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d, H = G exp(d) exp(w t):
- * with g = v - w velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^
- * d) + b^ d with b = a + w^ g, by which g changes in these axes:
+ * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K. Their entries are constant
+ * there, because it is a relative equilibrium; elsewhere in a run they are those of the instant. Axes that do not take
+ * part in the spin w about a node's x axis rotate d back, d <- exp(w^ t) d, H = G exp(d) exp(w t): with g = v - w
+ * velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^ d) + b^ d with b
+ * = a + w^ g, the rate of g in these axes:
  *
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M b^,                   (eq:modes.still-axes)
  *
- * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
- * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has
- * in it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its
- * past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one
- * that is smooth at rest is a damper there. */
+ * constant for axisymmetric parts, even if a rotating string lies on the wall. Effects with a memory are treated as
+ * follows:
+ *
+ *     bristles that stick         stiffness
+ *     integral gain of a drive    stiffness of its row, without the term of v^ d, which vanishes for drives along
+ *                                 and about the axis
+ *     regenerative rock law       none: the surface cut so far is prescribed
+ *     nonholonomic equation       constrains d as it constrains d'
+ *     friction                    derivative of its law; a law that is smooth at rest is a damper there */
 #include "analysis/linear/linear.h"
 
 #include <float.h>
@@ -99,6 +103,9 @@ static int32_t judge_rounding(dmb_linear *linear)
     return status;
 }
 
+/* Order: joints are settled and the balance is found, because both steady accelerations and multipliers enter the
+ * tangents. If the residual is not balanced, the stiffness decides whether it is rounding of the poses; this is
+ * repeated with the final stiffness. */
 static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
@@ -212,7 +219,7 @@ void dmb_linear_release(dmb_linear **linear)
 /* Units of rounding of a pose that count as rounding of the residual. */
 #define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
 
-/* Largest force on a solved row; moments over the length of the chain. */
+/* Largest force on a solved row; moments over the length that belongs to the chain (mean element). */
 static void find_largest(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
@@ -260,7 +267,8 @@ static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *no
     return status;
 }
 
-/* The better of both. */
+/* Both kinds of relative equilibria are tried, the one with the smaller residual counts: constant body-frame velocities
+ * (rigid), or axes at rest (sliding). */
 int32_t dmb_linear_evaluate_balance(dmb_linear *linear)
 {
     dmb_residual_norm rigid = {0}, sliding = {0}, best;

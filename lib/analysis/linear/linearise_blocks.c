@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+/* Dynamic, because velocities and accelerations of the state act; pseudo_factor 1, so that derivatives by acceleration
+ * are those of the equations of motion and not of generalized-alpha. */
 dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear)
 {
     dmb_evaluation evaluation;

@@ -1,14 +1,15 @@
 /* Test for constant coefficients in the axes of the linear system during the motion of the state: those of the wall,
  * and of the equations of joints.
  *
- * The normal of the wall is fixed in space and rotates in axes that rotate with a string.
+ * The normal of the wall is fixed in space and rotates in axes that rotate with a string. For joints,
  *
  *     d = R z,     B R = 0:     d' = R z' + R' z,     d'' = R z'' + 2 R' z' + R'' z
  *
- * The linear system has M R z'' + C R z' + K R z, so R must not change: R' = 0. In the body frames of two parts that
- * turn against each other about a joint it does change (a rotor on a carrier that may tilt: what the carrier's tilt is
- * for the rotor turns with it), unless the axes leave out this turning. An equation of speeds J V = 0 between parts
- * that move against each other has terms J' V in d besides J d'. */
+ * The linear system has M R z'' + C R z' + K R z, so that R must be constant: R' = 0. In the body frames of two parts
+ * that rotate against each other about a joint it is not (for a rotor on a carrier that may tilt, the tilt rotates in
+ * the axes of the rotor), unless the axes omit this rotation. An equation of velocities J V = 0 between parts that move
+ * against each other has terms J' V in d besides J d'. The test moves the state on by DMB_JOINTS_ANGLE and checks
+ * whether random motions R z of before still satisfy the equations B there. */
 #include <math.h>
 #include <string.h>
 
@@ -104,7 +105,8 @@ static int has_changed(const dmb_sim *copy, const dmb_constraint *constraint, co
     return 0;
 }
 
-/* 1 if it has equations of speeds and its parts have relative motion; for a callback, if they move. */
+/* 1 if it has equations of velocities and its parts have relative motion; for a caller's constraint, if they move at
+ * all. */
 static int rolls(const dmb_linear *linear, const dmb_sim *copy, const dmb_constraint *constraint, double rate)
 {
     double motion = 0.0;

@@ -56,7 +56,7 @@ static void copy_row(const double *block, uint32_t columns, uint32_t c, double *
     memcpy(to, block + (size_t)columns * c, columns * sizeof(double));
 }
 
-/* Before the columns are cleared. */
+/* Copies a column, with those parts of it in the neighbours' rows, before columns are cleared. */
 static void keep_column(const dmb_block_layout *layout, uint32_t node, uint32_t c, const dmb_linear_matrix *A,
                         double *to)
 {
@@ -66,7 +66,7 @@ static void keep_column(const dmb_block_layout *layout, uint32_t node, uint32_t 
     if (node + 1 < layout->n) copy_column(A->lower + layout->link[node], layout->size[node + 1], size, c, to + 12);
 }
 
-/* Likewise. */
+/* Copies a row, with those parts of it in the neighbours' columns, before rows are cleared. */
 static void keep_row(const dmb_block_layout *layout, uint32_t node, uint32_t c, const dmb_linear_matrix *A, double *to)
 {
     copy_row(A->diagonal + layout->diag[node], layout->size[node], c, to + 6);
@@ -108,9 +108,9 @@ void dmb_linear_hold(dmb_linear *linear, int columns)
     }
 }
 
-/* Independent coordinates z of the motions d = R z permitted by joints. */
+/* ---- Independent coordinates z of the motions d = R z permitted by joints (eq:joints.partition) ---- */
 
-/* Marks in `column` (shape (rows), to begin with) the dependent rows, and computes G of each component. */
+/* Marks the dependent rows, and computes G = -C_d^-1 C_i of each component. */
 static void find_dependent(dmb_linear *linear, uint8_t *dependent)
 {
     dmb_sim *work = linear->work;
@@ -159,6 +159,8 @@ static uint32_t put_row(const dmb_linear *linear, uint32_t node, uint32_t c, con
     return put_dependent(linear, k, place, number_of, at);
 }
 
+/* R by rows: an independent row has a single 1, a dependent one its row of G without constrained columns, a constrained
+ * one nothing. Coordinates are numbered in the order of their rows. */
 int32_t dmb_linear_make_coordinates(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
@@ -316,7 +318,7 @@ void dmb_linear_set_stiffness_size(dmb_linear *linear)
     for (uint32_t r = 0; r < linear->rows; r++) size[r] = fabs(size[r]);
 }
 
-/* A stiffness below this part of the largest one has rounding of that in it, of 1e-11 of it. */
+/* [-] Fraction of the largest stiffness below which a stiffness consists of its rounding. */
 #define DMB_STIFFNESS_SMALL 1e-5
 
 double dmb_linear_stiffness_at_least(const dmb_linear *linear)
@@ -329,9 +331,8 @@ double dmb_linear_stiffness_at_least(const dmb_linear *linear)
     return DMB_STIFFNESS_SMALL * most;
 }
 
-/* +-(1/2 .. 3/2) by a linear congruential generator, over the root of the stiffness; 0 where there is none. Of signs
- * alone x_i y_j - x_j y_i is 0 every second time, and with it all that two coordinates that are not symmetric would
- * show. */
+/* +-(1/2 .. 3/2) by a linear congruential generator, over the root of the stiffness; 0 without stiffness. Signs alone
+ * would not suffice: x_i y_j - x_j y_i would be 0 every second time, and hide an asymmetry between two coordinates. */
 static void draw_numbers(const dmb_linear *linear, uint64_t *seed, double *x)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
@@ -346,7 +347,7 @@ static void draw_numbers(const dmb_linear *linear, uint64_t *seed, double *x)
         }
 }
 
-/* Numbers on the coordinates, carried on to the rows that joints make dependent. */
+/* Random numbers of the coordinates, expanded to dependent rows. */
 static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *x)
 {
     draw_numbers(linear, seed, x);
@@ -354,6 +355,8 @@ static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *x)
     dmb_linear_expand(linear, z, x);
 }
 
+/* x . K y - y . K x is the sum of (K - K^T)_ij x_i y_j. The numbers are scaled so that each term K_ij x_i y_j is of
+ * order 1; the sum of random signs grows with the root of their number, by which it is divided. */
 double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
 {
     const size_t rows = linear->rows;
@@ -371,7 +374,7 @@ double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
     return most / sqrt(1.0 + linear->coordinates);
 }
 
-/* d.C d of random motions: 0 where C is skew, as gyroscopic terms are, or nothing. */
+/* d . C d of random motions vanishes if C is skew, as gyroscopic terms are, or 0. */
 int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work)
 {
     const size_t rows = linear->rows;
@@ -389,9 +392,9 @@ int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work)
     return motion > 0.0;
 }
 
-/* Factors of combinations of the matrices, and solutions with them. */
+/* ---- Factors of combinations of the matrices ---- */
 
-/* k K + c C + m M in the blocks of `work`, ones where rows are held. */
+/* k K + c C + m M in the blocks of `work`, with ones on the diagonal of constrained rows. */
 static dmb_linear_matrix combine(dmb_linear *linear, double k, double c, double m)
 {
     const dmb_scene *scene = &linear->scene;
@@ -434,7 +437,8 @@ uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
     return dmb_linear_negative(linear, 1.0, 0.0, -square);
 }
 
-/* Not raised by rounding as those of a static state are: an eigenvalue is where the search finds it. */
+/* Without the shift by rounding of a static state (eq:signs.amount), which would move the eigenvalues that are
+ * counted. */
 int64_t dmb_linear_count(dmb_linear *linear, double square)
 {
     const dmb_scene *scene = &linear->scene;

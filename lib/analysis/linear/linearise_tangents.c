@@ -7,8 +7,8 @@
 #include "math/so3.h"
 #include "system/assemble/assemble.h"
 
-/* [s] Terms integrated over a step are told from the rest by two steps this short and twice as long: a power of two,
- * over which nothing slips far. */
+/* [s] Terms integrated over a step are separated by two steps, this one and one twice as long. So short that slips
+ * remain negligible, and a power of two, so that dividing by it is exact. */
 #define DMB_LINEAR_STEP 0x1p-24
 
 static void copy_blocks(const dmb_block_layout *layout, const double *diagonal, const double *lower,
@@ -19,7 +19,8 @@ static void copy_blocks(const dmb_block_layout *layout, const double *diagonal, 
     memcpy(to->upper, upper, layout->link[layout->n - 1] * sizeof(double));
 }
 
-/* At increments of 0 the links hold stiffness plus inertia, or inertia alone; forces of constraint are given. */
+/* At increments of 0 the off-diagonal blocks are stiffness plus inertia, or inertia alone; constraint forces are
+ * prescribed. */
 static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double velocity_factor, double step,
                                 int32_t inertia_only)
 {
@@ -48,7 +49,8 @@ int32_t dmb_linear_read_stiffness_and_mass(dmb_linear *linear)
     return DMB_OK;
 }
 
-/* The tangent by velocity: nodes and elements keep it with the inertia, joints with their stiffness. */
+/* to += factor times the tangent by velocity, which nodes and elements store with the inertia, joints with their
+ * stiffness. */
 static int32_t add_velocity_tangent(dmb_linear *linear, double factor, double step, dmb_linear_matrix *to)
 {
     dmb_sim *work = linear->work;
@@ -68,7 +70,8 @@ static int has_integrals(const dmb_scene *scene)
     return 0;
 }
 
-/* Over a step h the tangent by velocity is C + h/2 S, S being the stiffness of what the trapezoidal rule integrates. */
+/* Over a step h the tangent by velocity is C + h/2 S, with S the stiffness of the terms that the trapezoidal rule
+ * integrates: bristles, states of the caller's forces, integral gains. Two steps give both, S is added to K. */
 int32_t dmb_linear_read_damping(dmb_linear *linear)
 {
     const double h = DMB_LINEAR_STEP;
@@ -87,7 +90,7 @@ int32_t dmb_linear_read_damping(dmb_linear *linear)
     return status < 0 ? status : add_velocity_tangent(linear, -2.0 / h, h, K);
 }
 
-/* The wall as it is, left out, or closed. */
+/* ---- Wall ---- */
 
 void dmb_linear_finalise(dmb_linear *linear, const dmb_linear_options *options)
 {
@@ -97,8 +100,8 @@ void dmb_linear_finalise(dmb_linear *linear, const dmb_linear_options *options)
     linear->work->scene = &linear->scene;
 }
 
-/* Forces that the frozen scene lacks stay as dead loads, with what they add to the stiffness by the body turning under
- * them, d(R^T f) = (R^T f)~ dtheta: the state is the same equilibrium. `before`: residual with them. */
+/* Forces missing in the finalised scene remain as dead loads, with their stiffness in body axes, d(R^T f) = (R^T f)~
+ * dtheta: the state stays an equilibrium. `before`: residual with them. */
 void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
@@ -111,7 +114,8 @@ void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
     }
 }
 
-/* [N/m] of the wall under a ring that carries the weight of its node, a newton at least. */
+/* [N/m] Stiffness dN/dd of the wall at the penetration under the weight of the ring's node (at least 1 N): with N = K
+ * d^n it is K n (N/K)^((n - 1)/n). A contact that does not exist has no penetration of its own to take the slope at. */
 static double wall_stiffness(const dmb_scene *scene, const dmb_site *site, double depth)
 {
     const double weight = fmax(scene->weight_mass[site->node] * dmb_vec3_norm(scene->gravity), 1.0);
@@ -120,7 +124,7 @@ static double wall_stiffness(const dmb_scene *scene, const dmb_site *site, doubl
     return K * exponent * pow(weight / K, (exponent - 1.0) / exponent);
 }
 
-/* k j j^T, j = (n; offset e_x x n) in body axes: the ring may not move across the wall. */
+/* k j j^T, j = (n; offset e_x x n) in body axes: stiffness against motion of the ring across the wall. */
 static void add_wall(dmb_linear *linear, const dmb_site *site, double stiffness, const double normal[3])
 {
     const double arm[3] = {site->offset, 0.0, 0.0};
@@ -168,7 +172,7 @@ void dmb_linear_close_contacts(dmb_linear *linear, double gap)
     }
 }
 
-/* Products with the velocities of the state, which its frames turn with. */
+/* ---- Axes ---- */
 
 /* to += factor A v^ in rows of six columns: row^T v^ = ad(v)^T row */
 static void add_row_products(double factor, const double *A, uint32_t rows, size_t stride, const double v[6],
@@ -209,8 +213,8 @@ void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_li
     }
 }
 
-/* The spin w that the axes of d leave out, the rest g of the velocities, and how that changes in these axes, a + w^ g.
- */
+/* Splits velocities into the spin w omitted by the axes of d and the remainder g, with its rate in these axes, a + w^
+ * g. */
 static void part_velocities(dmb_linear *linear, int32_t inertial_axes)
 {
     const dmb_scene *scene = &linear->scene;
@@ -227,8 +231,10 @@ static void part_velocities(dmb_linear *linear, int32_t inertial_axes)
     }
 }
 
-/* The matrices with their frames' velocities (linearise.c): a row that is held has no d, nor any v^ d, but what the
- * others do to it counts. */
+/* C and K in the axes of d (linearise.c). A constrained row has d = 0 and no v^ d, therefore its columns are cleared
+ * before the products. Forces on constrained rows by the others are reactions: rows are copied before they are cleared,
+ * too. Terms are added in the order in which each uses the matrices before it: -M w^ to C, then C g^ to K, then M b^ to
+ * K and M g^ to C. */
 void dmb_linear_turn_frames(dmb_linear *linear, int32_t inertial_axes)
 {
     part_velocities(linear, inertial_axes);

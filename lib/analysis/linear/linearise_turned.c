@@ -1,11 +1,11 @@
-/* Whether coefficients stay the same while parts turn: a shaft that is not round in axes at rest, springs that hold it
- * unlike across it in axes that turn with it. The scene is linearised once more with what turns turned on, and the
- * forces of each answer d e^(s t) are held against those of the first time:
+/* Test for coefficients that are constant while parts rotate. They are not for an asymmetric rotor in inertial axes, or
+ * for anisotropic supports in rotating axes. The scene is linearised again after a further rotation of its rotating
+ * parts, and for each result d e^(s t) the forces of both linear systems are compared:
  *
  *     change = sum |d| |T^T P'(s) T d - P(s) d| / sum |d| (|K d| + |s|^2 |M d|),     P(s) = K + s C + s^2 M,
  *
- * (eq:modes.turned) T being the turning of the nodes as the axes of d see it. A mode's root is wrong by up to this part
- * of it or so. */
+ * with T the rotation of the nodes in the axes of d (eq:modes.turned). The relative error of a root is of the size of
+ * the change. */
 #include <math.h>
 #include <string.h>
 
@@ -16,15 +16,16 @@
 #include "sim/node.h"
 #include "system/system.h"
 
-/* [rad/s] below which nothing turns. */
+/* [rad/s] Smallest spin that counts as rotation. */
 #define DMB_TURNED_SPIN 1e-3
-/* [rad] by which the fastest part is turned on: no part of a turn, so that no symmetry hides behind it. */
+/* [rad] Further rotation of the fastest part: no rational fraction of a revolution, so that no symmetry hides the
+ * change. */
 #define DMB_TURNED_ANGLE 1.0
-/* [-] change that is told: what a string has that turns while its weight bends it is far below. */
+/* [-] Smallest change that is reported; that of a rotating string bent by its weight is far below. */
 #define DMB_TURNED_CHANGE 1e-4
 
-/* A node goes on by this in a unit of time: by its spin where axes at rest or a sliding string leave the rest, else by
- * all of its motion. */
+/* Rate of the further motion of a node, body frame: its spin alone in inertial axes or for a sliding string, else its
+ * whole velocity. */
 static void motion_of(const dmb_linear *linear, int32_t inertial_axes, uint32_t node, double v[6])
 {
     const uint32_t row = linear->scene.layout.row[node];
@@ -54,7 +55,8 @@ static void turn_six(double angle, double x[6])
     }
 }
 
-/* Where the spin alone goes on, the rest of the velocity stays where it is in space. */
+/* Moves the nodes of the copy by h times that rate. If only the spin continues, the velocities keep their directions in
+ * space and are rotated back in the node. */
 static void turn_on(const dmb_linear *linear, int32_t inertial_axes, double h, dmb_sim *copy, double *angle)
 {
     for (uint32_t i = 0; i < linear->scene.node_count; i++) {

@@ -1,8 +1,9 @@
 /* The stiffness K of a static state and the signs of its eigenvalues. Elimination counts exactly the signs of a matrix
  * whose entries differ from those of K by some eps sqrt(s_i s_j), s the size of a row (eq:signs.size). A residual r
- * that rounding or the tolerance leaves has a stiffness too, that of the turning of r with the nodes. With the diagonal
- * T of both (eq:signs.amount), the counts of K + T and K - T enclose that of K: where they agree it is exact, and the
- * eigenvalues by which they differ are of rounding size (eq:signs.bounds). T scales as K does: units do not matter. */
+ * that rounding or the tolerance leaves has a stiffness too, because its direction rotates with the nodes. With the
+ * diagonal T of both (eq:signs.amount), the counts of K + T and K - T enclose that of K: if they agree it is exact, and
+ * the eigenvalues by which they differ are of rounding size (eq:signs.bounds). T scales as K does, so that units do not
+ * matter. */
 #include "analysis/linear/linear.h"
 
 #include <math.h>
@@ -17,8 +18,9 @@
 
 /* 4 eps */
 #define DMB_SIGNS_PART 0x1p-50
-/* A diagonal entry may be the small difference of large ones: so much of the largest of its node counts at least; in
- * nodes that joints connect, whose forces take part, all of it. */
+/* [-] A diagonal entry may be the small difference of large ones: the size of a row is at least this fraction of the
+ * largest one of its node, weighted; for nodes on joints, whose forces contribute, the whole of it (eta of
+ * eq:signs.size). */
 #define DMB_SIGNS_FLOOR 1e-6
 
 /* ---- Sizes of rows ----------------------------------------------------------------------------------------------- */
@@ -59,7 +61,7 @@ static void row_sizes(const dmb_sim *sim, double *size)
     for (uint32_t k = 0; k < scene->constraint_count; k++) add_tangent(sim, scene->constraints + k, size);
 }
 
-/* Size of components [first, end) of the residual of a node, those that are held apart. */
+/* Norm of components [first, end) of the residual of a node, without constrained ones. */
 static double residual_of(const dmb_sim *sim, uint32_t node, uint32_t first, uint32_t end)
 {
     const uint32_t row = sim->scene->layout.row[node];
@@ -69,8 +71,8 @@ static double residual_of(const dmb_sim *sim, uint32_t node, uint32_t first, uin
     return sqrt(sum);
 }
 
-/* A shape with displacements d and rotations a moves the force r of a node by a x d/2 to second order, and
- * |r . a x d| <= |r| (d^2/L + L a^2)/2, L the length of what may turn as a whole. */
+/* A shape with displacements d and rotations a moves the force r of a node by a x d/2 to second order, and |r . a x d|
+ * <= |r| (d^2/L + L a^2)/2, with L the length of the longest string, which may rotate as a whole. */
 static void add_residual(const dmb_sim *sim, double *amount)
 {
     const dmb_scene *scene = sim->scene;
@@ -110,7 +112,7 @@ typedef struct row_storage {
     double *amount, *diagonal; /* (rows) T, and the diagonal of K as it is */
 } row_storage;
 
-/* K + share T in the rows of jointed chains. */
+/* K + share T in the rows of jointed chains, whose reduced system is then assembled from them. */
 static void raise_joints(dmb_sim *sim, const row_storage *rows, double share)
 {
     const dmb_scene *scene = sim->scene;
@@ -144,7 +146,7 @@ static double largest_amount(const dmb_sim *sim, const double *amount)
     return most;
 }
 
-/* A block may be singular before its turn though the whole is not: a little further on it is not. */
+/* A block may be singular during elimination although the matrix is not. Count again with T slightly larger. */
 #define DMB_SIGNS_TRIES 3
 
 static int negative_of_joints(dmb_sim *sim, const row_storage *rows, double share, int32_t *negative)
@@ -167,6 +169,8 @@ static int32_t count(dmb_sim *sim, const row_storage *rows, double share)
     return negative_of_joints(sim, rows, share, &negative) ? negative : -1;
 }
 
+/* K is unchanged at the end: chains are counted without changing it, and the diagonal of jointed ones is restored
+ * (share 0). */
 int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, double *amount, dmb_signs *out)
 {
     const size_t rows = sim->scene->row_count, bytes = 2 * rows * sizeof(double);
