@@ -163,7 +163,7 @@ int32_t dmb_mesh_count(dmb_mesh *mesh)
     return status;
 }
 
-/* Features of a scene: those requested by the options and present in the description. */
+/* ---- Features of a scene: those requested by the options and present in the description ---- */
 
 static bool has_gravity(const dmb_model *model)
 {
@@ -248,6 +248,8 @@ static int32_t read_options(dmb_model *model, const dmb_compile_options *given, 
     return check.status;
 }
 
+/* The order of the steps is that of their data (table in mesh.h). Each of them checks what it reads: the first part
+ * that is wrong ends compilation with its message. */
 static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
 {
     static int32_t (*const steps[])(dmb_mesh *) = {
@@ -296,6 +298,8 @@ static void tell(dmb_model *model, const dmb_scene *scene)
     dmb_log_text(&log, DMB_LOG_INFO, model->message.text);
 }
 
+/* The description is unchanged after an error. Drives with a constant value get time functions behind those of the
+ * description; they exist during compilation only and are dropped either way, because the scene has its own copies. */
 int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
 {
     dmb_compile_options read;

@@ -3,23 +3,27 @@
  * advance; all are released at the end of compilation.
  *
  *   step            reads                      fills
+ *   hole            wall, survey, sections     hole, stations, pieces
  *   count           runs                       run_order, room in nodes and elements
+ *   check           references of parts        -
  *   ring_places     rings, runs                ring_order
  *   divisions       ring_order, forces, ...    divisions
  *   strings         runs, masks, divisions     nodes (at, size, free), elements (node, arms, length), pipes, strings
  *   bodies          bodies, bits               nodes of free bodies, bodies
  *   rings           ring_order, elements       bodies, rings
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
+ *   depths          hole, poses, joints        nodes (depth) of parts that do not follow the hole
  *   types           runs, elements             types, elements (type, kernel), batches
  *   masses          runs, bodies, bits         rigid_masses, added_masses, nodes (weight, damped)
- *   sites           pipes, bodies              sites, axial_torsional_sites
+ *   sites           pipes, bodies              sites, axial_torsional_sites, inside
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
- *   forces          springs, forces            springs, spring_points, forces
- *   flow            pipes, hole, environment   flow_pieces
- *   rotors          joints, nodes, ...         rotors
+ *   forces          springs, forces, stuck     springs, spring_points, forces, stuck
  *   constraints     joints ... forces          constraints, clusters, cluster_nodes; back-references
  *                                              in joints, couplings, drives, callbacks, springs, forces
+ *   inputs          inputs, events             inputs, events
+ *   flow            pipes, hole, environment   flow_pieces
+ *   rotors          joints, nodes, ...         rotors
  *
  * Fields that depend on row numbers are filled by mesh_finalise: rows of drives, columns of constraint components,
  * blocks of jointed chains. */

@@ -1,5 +1,12 @@
 /* Constraint rows of joints, couplings, joint drives and the caller's constraints, and the constraint components: sets
- * of nodes connected by them. */
+ * of nodes connected by them. Springs and forces between nodes that are not neighbours in a chain take part with an
+ * idle row: they have no equation, but a tangent between nodes that only a component has room for.
+ *
+ *     add_all           constraints, kind by kind: nodes, columns, largest number of rows
+ *     make_clusters     components by union-find, numbered by their smallest nodes
+ *     sort_by_cluster   constraints of a component side by side
+ *     number_rows       rows and storage in that order
+ *     choose_storage    dense (eq:joints.partition) or sparse, by the number of nodes */
 #include "base/memory.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
@@ -63,6 +70,7 @@ static int32_t push(dmb_mesh *mesh, const dmb_constraint *constraint)
     return dmb_vector_append(&mesh->constraints, &mesh->model->allocator, constraint, 1);
 }
 
+/* A joint has room for six rows: locked in a run it needs them all. */
 static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
 {
     dmb_constraint constraint = {.kind = DMB_OF_JOINT, .index = i, .rows = DMB_CONSTRAINT_ROWS};

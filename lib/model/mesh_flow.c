@@ -291,6 +291,9 @@ static int32_t check_motors(const dmb_mesh *mesh)
     return DMB_OK;
 }
 
+/* Pieces from the rig end down. The losses of a piece need those of the piece before, and the check of the pump those
+ * of all. With an input for the flow rate the range is checked at its bounds: the laws hold for every rate in between,
+ * since Reynolds numbers and losses grow with the rate. */
 int32_t dmb_mesh_flow(dmb_mesh *mesh)
 {
     flow_iterator iterator = {.mesh = mesh};

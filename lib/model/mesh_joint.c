@@ -1,3 +1,4 @@
+/* Places of the description as nodes with arms, and joints, couplings and the caller's constraints on them. */
 #include "model/mesh.h"
 
 #include <math.h>
@@ -74,7 +75,7 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
 
 _Static_assert((int)DMB_CONSTRAINT_ROWS == (int)DMB_ROWS_MAX, "rows of a joint");
 
-/* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */
+/* ---- Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes ---- */
 
 enum {
     SPAN_ELEMENTS_MAX = 1024
@@ -163,6 +164,8 @@ static void sum_spans(const dmb_mesh *mesh, uint32_t from, uint32_t to, double s
     for (uint32_t i = from; i < to; ++i) dmb_vec3_add(sum, dmb_mesh_element_at(mesh, i - string)->span, sum);
 }
 
+/* Vector from node a to node b at time 0, world axes. Within a string it is the sum of the elements' spans: a
+ * difference of positions far from the origin would lose the digits that joints are closed to. */
 void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
 {
     const dmb_mesh_node *to = dmb_mesh_node_at(mesh, b);
@@ -281,6 +284,8 @@ static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
 
 /* ---- Couplings and constraints ----------------------------------------------------------------------------------- */
 
+/* q_0 - sum ratio_k q_k = 0: factor 1 for the first coordinate, minus the ratio for the others; places without a joint
+ * are left out. */
 static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_model *model = mesh->model;

@@ -1,4 +1,14 @@
 
+/* Rigid masses, weights, displaced volumes, damped lengths and added mass of mud on the nodes. Each part adds to sums
+ * of its node, about the node's origin in its axes:
+ *
+ *     elastic pipe    weight and damping; its mass is consistent in the element; eccentric mass at both ends
+ *     tool joint      mass, weight and damping, at the far node
+ *     rigid pipe      mass, weight, damping and mud, at the node of its stretch
+ *     ring, body      mass, weight and mud at its arm
+ *     drive           inertia of its rotor about the x axis
+ *
+ * Weights contain buoyancy. Where an input changes the mud's density, they are computed again from the volumes. */
 #include <math.h>
 
 #include "math/elementary.h"
@@ -63,8 +73,6 @@ void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2])
     e[0] = distance * cosine;
     e[1] = distance * sine;
 }
-
-/* Rigid masses on the nodes; masses subject to gravity, and external damping. */
 
 /* ---- Sums on a node ---------------------------------------------------------------------------------------------- */
 
@@ -295,6 +303,7 @@ static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *m
     return add_mud(mesh, map->node, &part);
 }
 
+/* A ring surrounds the pipe that goes on through it: its own volume and mass are those outside the pipe's diameter. */
 static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t string, uint32_t number)
 {
     const dmb_ring_range rings = dmb_mesh_rings_of(mesh, string, number);

@@ -1,4 +1,10 @@
-/* Strings and bodies as nodes and elements: types of elements, their kernels, batches of neighbours with one kernel. */
+/* Strings and bodies as nodes and elements: types of elements, their kernels, batches of neighbours with one kernel. A
+ * string is a chain of nodes:
+ *
+ *     flexible, axial-torsional pipe   one node more than elements, shared with the pipe before
+ *     rigid pipes in a row             one node, to which all of them are fixed at arms along its axis
+ *     tool joint                       rigid arm and mass of the last element's far node
+ *     fixed body, bit, stabiliser      fixed to a node at an arm */
 #include <math.h>
 #include <string.h>
 
@@ -58,6 +64,8 @@ static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_
     return status;
 }
 
+/* Elements of equal run, length and arms share the constants of the element before. Weight and displacement of the mud
+ * are per element; the added mass of mud acts across only. */
 static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)
 {
     const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
@@ -114,8 +122,10 @@ int32_t dmb_mesh_types(dmb_mesh *mesh)
     return status;
 }
 
-/* Nodes and elements of the strings. A string is divided from its rig end on into stretches of rigid pipes, each one
- * body with one node, and runs of elastic pipes, in which every element adds a node. */
+/* ---- Strings ----
+ *
+ * A string is divided from its rig end on into stretches of rigid pipes, each one body with one node, and runs of
+ * elastic pipes, in which every element adds a node. */
 
 typedef struct string_iterator {
     dmb_mesh *mesh;
@@ -208,6 +218,7 @@ static void mesh_pipe(string_iterator *iterator, const pipe_iterator *pipe)
     }
 }
 
+/* The map was pushed with the described number of elements; stabilisers and forces have increased it. */
 static void mesh_and_count(string_iterator *iterator, const pipe_iterator *pipe)
 {
     const uint32_t before = (uint32_t)iterator->mesh->elements.count;
@@ -369,7 +380,7 @@ int32_t dmb_mesh_strings(dmb_mesh *mesh)
     return status;
 }
 
-/* Nodes of free bodies, and the nodes that bodies and bits are fixed to. */
+/* ---- Bodies: nodes of free bodies, and the nodes that bodies and bits are fixed to ---- */
 
 static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
 {

@@ -147,6 +147,8 @@ static bool is_straight(const dmb_mesh *mesh, uint32_t string)
     return true;
 }
 
+/* Nodes by successive relative poses of the unstressed shape from the rig end; of a straight string each from the rig
+ * end itself. */
 static void string_on_its_own(dmb_mesh *mesh, uint32_t string, uint32_t *element)
 {
     const dmb_string_def *def = dmb_mesh_string_def(mesh, string);
@@ -177,6 +179,8 @@ static double bend_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
     return 2.0 * sqrt(q[2] * q[2] + q[3] * q[3]);
 }
 
+/* Curved mass and stiffness (element/curved_mass.h) for an element that is bent unstressed, bent as described by more
+ * than DMB_CURVED_BEND, or thick against its length. */
 bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element)
 {
     const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;

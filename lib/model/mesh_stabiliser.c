@@ -1,4 +1,6 @@
-/* Stabilisers: their order along the strings, and the nodes that carry them. */
+/* Stabilisers: their order along the strings, and the nodes that carry them. They are placed in two steps, because they
+ * divide elements: before the strings are meshed their places are sorted and checked, afterwards each finds its
+ * node. */
 #include <math.h>
 #include <string.h>
 

@@ -184,6 +184,8 @@ static int32_t pass_elastic_pipe(site_iterator *iterator, const dmb_pipe_map *pi
                         pipe->joint - last->arm[1], number);
 }
 
+/* The first contact point is the rig end. Each stretch ends the point before it and begins the next one, which is
+ * finished when its other half is known; the last one has one half only. */
 static int32_t pass_string(dmb_mesh *mesh, uint32_t string, uint32_t *ring)
 {
     const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
@@ -233,6 +235,8 @@ static int32_t add_stabilisers(dmb_mesh *mesh)
 
 /* ---- Inside elements --------------------------------------------------------------------------------------------- */
 
+/* Lobatto points inside an element with their weights as lengths; the end points are those of the nodes. Only between
+ * six-DOF nodes of which one at least moves sideways. */
 static int32_t add_inside(dmb_mesh *mesh, const dmb_pipe_def *def, uint32_t e, dmb_site site)
 {
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
@@ -269,6 +273,8 @@ static int32_t add_string_inside(dmb_mesh *mesh, uint32_t string)
     return status;
 }
 
+/* Order of the contact points: strings with their rings in the order of nodes, then bodies and bits, then points inside
+ * elements. Queries search them in that order. */
 int32_t dmb_mesh_sites(dmb_mesh *mesh)
 {
     uint32_t ring = 0;

@@ -75,6 +75,8 @@ void dmb_joint_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, 
     add_part(share, &part, x, pipe);
 }
 
+/* A slice of the tool joint: mass and polar inertia in proportion to its length; across, the inertia of the slices
+ * about their own centres in proportion, and that of their distances by m l^2/12. */
 double dmb_joint_part_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
                                dmb_rigid_mass *share)
 {

@@ -193,6 +193,8 @@ static void strain_rates(const double d[6], const dmb_material_point_motion *a, 
     for (int i = 0; i < 6; i++) second[i] += turned[i] - left[i];
 }
 
+/* V at A, then along exp(x d) and exp(c(x) d) in turn (eq:beam.section-pose): both exponents are linear in d, so their
+ * rates are those of d with the same shapes. */
 static void section_motion(const dmb_scene *scene, const dmb_configuration *configuration,
                            const dmb_material_point *material_point, dmb_material_point_motion *motion)
 {

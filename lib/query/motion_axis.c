@@ -35,6 +35,8 @@ static double bow_of(const dmb_scene *scene, const double ends[2], double f, dou
     return s;
 }
 
+/* The displacement is the difference of the bows now and at the start plus the interpolated displacement of the nodes:
+ * no world positions are subtracted, which would lose digits far from the origin. */
 void dmb_axis_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
                       const dmb_material_point *material_point, dmb_material_point_pose *pose)
 {

@@ -125,6 +125,8 @@ static int32_t ask_bits(const asked_string *s, bits_of_string *bits)
     return bits->count > 0 ? DMB_OK : DMB_ERR_UNSUPPORTED;
 }
 
+/* Weight and torque are sums over the bits of the string, reamers excluded. The rate of penetration is that of the
+ * first bit, and 0 while none of the bits with a rock law is on bottom. */
 static int32_t value_of_bits(const asked_string *s, int32_t quantity, double *value)
 {
     bits_of_string bits = {0};

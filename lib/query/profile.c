@@ -87,6 +87,7 @@ typedef struct station {
     double values[DMB_PROFILE_QUANTITIES];
 } station;
 
+/* Deviation from the hole's axis in its frame: sideways and up. */
 static void pose_values(station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -191,6 +192,8 @@ static int beyond_middle(const station *at)
 }
 
 /* Contact point of the stabiliser at the station; DMB_NONE: none with wall contact. */
+/* Rings are sorted by string and place, their ranges do not overlap: the first one that ends at or beyond the
+ * station. */
 static uint32_t stabiliser_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -211,6 +214,8 @@ static uint32_t stabiliser_site(const station *at)
 }
 
 /* Contact point inside the element that represents the station; DMB_NONE: one of its ends does. */
+/* Contact points inside carry lengths around the middle of the element: the station belongs to the one in whose length
+ * it lies, else to a node. */
 static uint32_t inside_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -262,6 +267,9 @@ static double clearance_at(const station *at)
     return fmax(0.0, dmb_hole_radius(&scene->hole, at->values[DMB_PROFILE_DEPTH]) - radius);
 }
 
+/* Von Mises stress of the effective force (eq:drilling.von-mises), in which hydrostatic pressure drops out; with
+ * different mud inside and outside the pressure difference enters. The momentum of flowing mud is no stress of the
+ * steel: it is added back to the effective force (eq:mud.effective). */
 static void stress_values(station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -279,6 +287,7 @@ static void stress_values(station *at)
     if (def->yield_strength > 0.0) v[DMB_PROFILE_YIELD_SHARE] = v[DMB_PROFILE_VON_MISES] / def->yield_strength;
 }
 
+/* Ratios of the compression to eq:drilling.sinusoidal and eq:drilling.helical, for the softer bending direction. */
 static void buckling_values(station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -330,6 +339,8 @@ static int takes_pose(const station *at, int32_t groups)
            ((groups & DMB_TAKES_LIMITS) != 0 && dmb_mud_is_apart(at->sim->scene));
 }
 
+/* Groups are computed in the order of their dependence: pose and depth, motion, contact, then section forces, of which
+ * stresses and buckling ratios are made. In a rigid pipe there is no section, its values stay 0. */
 static int32_t fill(station *at, int32_t groups)
 {
     int32_t status = DMB_OK;

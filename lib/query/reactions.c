@@ -33,6 +33,8 @@ static void relative_acceleration(const dmb_sim *sim, uint32_t j, const dmb_rela
     for (int i = 0; i < 6; i++) out[i] += dmb_vec6_dot(relative->to_a + 6 * i, a);
 }
 
+/* Position, speed J V and acceleration J V' + J' V of the joint's coordinates (eq:joints.coordinates). A quasi-static
+ * state has no accelerations. */
 static void coordinates(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, const dmb_joint_coordinates *c,
                         dmb_joint_state *answer)
 {
@@ -70,6 +72,7 @@ static void reaction(const dmb_sim *sim, uint32_t j, const dmb_joint_rows *rows,
     dmb_mat3_vec(world, answer->reaction + 3, answer->reaction + 3);
 }
 
+/* World axes of frame b of the joint, columns. */
 static void frame_b(const dmb_sim *sim, uint32_t j, double world[9])
 {
     double R[9], u[3];
@@ -139,6 +142,7 @@ uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint)
     }
 }
 
+/* Redundant rows are those behind the rank in the row order of the partition (eq:joints.partition). */
 uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint)
 {
     const dmb_constraint *c = sim->scene->constraints + constraint;
@@ -151,6 +155,7 @@ uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint)
     return count;
 }
 
+/* Only equations of positions have a violation; those of velocities hold as rates. */
 double dmb_joint_violation(const dmb_sim *sim, uint32_t j)
 {
     dmb_relative relative;
@@ -200,8 +205,6 @@ int32_t dmb_answer_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
     dmb_arm_wrench(-arm, reaction); /* from the node to the part's reference point */
     return DMB_OK;
 }
-
-/* Drives and bits at the accepted state. */
 
 /* ---- Drives and bits --------------------------------------------------------------------------------------------- */
 

@@ -54,6 +54,8 @@ DMB_DEFINE_INIT(dmb_flow_state, 96, {.rate = 0.0})
 
 /* ---- At rest ----------------------------------------------------------------------------------------------------- */
 
+/* [Pa] Hydrostatic pressure of a mud column from the start of the hole, or from the rig end without a hole; 0 above
+ * it. */
 static double at_rest(const dmb_scene *scene, uint32_t string, double density, const double x[3])
 {
     double top[3], below[3];
@@ -107,6 +109,9 @@ static double motor_loss(const dmb_sim *sim)
     return sum;
 }
 
+/* The annulus loses pressure upwards, from the bottom to the surface (eq:mud.balance): the outside pressure is that of
+ * the column plus the losses above the section. The inside one is found from the bottom: outside pressure there,
+ * nozzles, motors, losses of the bore below, less the weight of the mud between. */
 static dmb_mud_pressure in_flow(const dmb_sim *sim, double distance, const double x[3])
 {
     const dmb_scene *scene = sim->scene;

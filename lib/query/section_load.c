@@ -1,6 +1,13 @@
 /* Section forces inside an element by Newton's law for the segment between its end A and the section
  * (eq:beam.section-force): the load at A, minus the concentrated loads on the segment, minus its part of the
- * distributed loads. */
+ * distributed loads. Contributions, in their order:
+ *
+ *     host_of               loads at both ends by the element's own forces and inertia, by lanes or alone
+ *     subtract_nodes        concentrated loads inside the element: taken from the nodes, where equations apply them
+ *     add_eccentric         eccentric mass and external damping, half an element at each node: added to the ends,
+ *     add_external_damping  and thereby part of the distributed loads
+ *     total_of              distributed loads of the whole element: the difference of both ends
+ *     distributed_to        their part up to the section */
 #include <string.h>
 
 #include "element/beam.h"
@@ -105,7 +112,9 @@ static int32_t compute_kept(const dmb_sim *sim, dmb_kept_loads *kept)
     return scene->kernels->end_loads(&args, kept->loads);
 }
 
-/* Loads of an element by lanes; NULL: it is not for them. Stations that go back take their elements one by one. */
+/* Loads of an element, computed in lanes for the elements that follow; NULL for elements that are evaluated alone:
+ * curved or axial-torsional ones, and all with flowing mud. Stations in decreasing order compute one element at a
+ * time. */
 static const dmb_end_loads *find_kept(const dmb_sim *sim, uint32_t element, dmb_kept_loads *kept)
 {
     if (element - kept->first < kept->count) return kept->loads + (element - kept->first);
@@ -457,8 +466,6 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
 
 /* ---- In a tool joint --------------------------------------------------------------------------------------------- */
 
-/* Section load in a tool joint: from its near end to the section, `beyond` [m] further, by mass and weight of the part
- * between. */
 /* External damping of the tool joint between the element and a point in it. */
 static void damp_joint(const dmb_sim *sim, const dmb_element_type *type, const dmb_material_point *point,
                        double load[6])
@@ -471,6 +478,8 @@ static void damp_joint(const dmb_sim *sim, const dmb_element_type *type, const d
         for (int i = 0; i < 6; i++) load[i] -= f[i];
 }
 
+/* Section load in a tool joint: that at its near end, moved to the section `beyond` [m] further, with inertia, weight
+ * and damping of the part between. */
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6])
 {

@@ -53,6 +53,7 @@ static double element_error(mesh_march *march, const dmb_pipe_def *def, uint32_t
     return q * s * s / 12.0 * 0.5 * def->outer_diameter / (EI * yield);
 }
 
+/* Pipes that are not flexible have no error and contribute no weight. */
 static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_pipe_map *pipe)
 {
     double largest = 0.0;
@@ -64,6 +65,7 @@ static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_p
 /* Called with each pipe of a string, from the far end. */
 typedef void (*pipe_visit)(void *context, const dmb_pipe_run *run, uint32_t pipe, double error);
 
+/* Upwards from the far end, because the tension of a place is the weight of the flexible pipes below it. */
 static void visit_pipes(const dmb_model *model, uint32_t string, pipe_visit visit, void *context)
 {
     const dmb_scene *scene = model->scene;

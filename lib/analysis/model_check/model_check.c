@@ -1,4 +1,6 @@
-/* Model check as a struct. */
+/* Model check as a struct: counts of parts, joints, actions, degrees of freedom and of the solver, and the number of
+ * warnings. The sim is occupied, not changed: it stays open for the text (model_check_text.c) until
+ * dmb_model_check_close. */
 #include "analysis/model_check/model_check.h"
 
 #include <string.h>
@@ -49,6 +51,8 @@ static void count_actions(const dmb_scene *scene, dmb_check_report *report)
     report->loads = scene->load_count;
 }
 
+/* Coordinates less supports, drives and independent equations. `gruebler` counts all equations as independent and is
+ * smaller by the redundant ones; it may be negative. */
 static void count_degrees_of_freedom(const dmb_scene *scene, const dmb_cluster_rank *rank, dmb_check_report *report)
 {
     report->coordinates = scene->row_count;
@@ -83,6 +87,7 @@ static void count_line(void *context, const char *text)
     ++*lines;
 }
 
+/* Warnings are counted by running them with a receiver that counts lines: number and text cannot differ. */
 static int32_t make(const dmb_sim *sim, dmb_model_check *findings)
 {
     dmb_check_report *report = &findings->report;
@@ -132,7 +137,9 @@ int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
     return status;
 }
 
-/* Parts that would fall: chains of nodes connected by joints form groups, each of which needs a support. */
+/* ---- Parts that would fall under gravity: chains of nodes connected by joints form groups, each of which needs a
+ * support. The check is topological: a support of any component counts, so that no warning is not a proof of support
+ * ---- */
 
 /* Union-find over nodes, the root of a group being its smallest node; held: by root, 1 if supported. */
 typedef struct groups {
@@ -154,6 +161,7 @@ static void hold(const groups *g, uint32_t node)
     g->held[root_of(g, node)] = 1;
 }
 
+/* The smaller root stays the root, and inherits the support of the other group. */
 static void join(const groups *g, uint32_t a, uint32_t b)
 {
     const uint32_t from = root_of(g, a), to = root_of(g, b);
@@ -239,6 +247,8 @@ static void count_unconstrained(const groups *g, dmb_unconstrained_parts *uncons
     }
 }
 
+/* Connections first, then supports: hold() marks the root of the group as it is at that time, and join() carries marks
+ * over, so that the order does not matter for the result. Without gravity nothing falls. */
 int32_t dmb_find_unconstrained_parts(const dmb_sim *sim, dmb_unconstrained_parts *unconstrained)
 {
     const size_t n = sim->scene->node_count, bytes = 2 * n * sizeof(uint32_t);

@@ -1,4 +1,12 @@
-/* Warnings about a scene, one line per kind: the first or worst case by name, and the number of others. */
+/* Warnings about a scene, one line per kind: the first or worst case by name, and the number of others. They are for
+ * values that compile accepts but that a user has rarely meant:
+ *
+ *     equations   redundant, rank in dispute, nearly redundant, violated in the present pose
+ *     joints      near a gimbal singularity that their forces or couplings feel; drives of open or locked ones
+ *     support     groups of parts that fall; a load on a bit that only friction bears
+ *     mass        nodes with nearly none; bent elements with the mass of straight ones (eq:curved.kinetic-energy)
+ *     values      unusual for drill pipe, holes and mud (unusual_values.c)
+ *     hole        parts outside it, sideways or lengthwise; no contact; contact points on supports; coarse mesh */
 #include <float.h>
 #include <math.h>
 
@@ -62,6 +70,8 @@ static void redundancy(const sink *to)
     say(to, &text);
 }
 
+/* Two decisions on rank: singular values by LAPACK, pivots of the partition. They differ if a singular value is near
+ * the tolerance of both. */
 static void disagreement(const sink *to)
 {
     dmb_message text;

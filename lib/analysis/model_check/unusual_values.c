@@ -35,6 +35,7 @@ static void meant(const sink *to, const char *part, const char *field, double va
     to->line(to->context, text.text);
 }
 
+/* Warns of a value outside the range: without a guess at the unit, unlike `meant`. */
 static void beyond(const sink *to, const char *part, const usual *of, double value)
 {
     dmb_message text;
