@@ -1,3 +1,13 @@
+/* Joints: relative motion of two frames; rows and coordinates of every kind, each with value, gradient J by the
+ * relative twist V = (u; w) and the rate JV of that gradient along V, so that C'' = J V' + JV V.
+ *
+ *     rows                                    equation
+ *     -------------------------------------   -------------------------------------------------------
+ *     components of p, products of axes       eq:joints.rows (dot_rows)
+ *     distance of two points                  |p| - length (distance_row)
+ *     knife edge                              u_y = 0 (eq:joints.nonholonomic)
+ *     rolling rim                             eq:joints.rolling (rolling_rows)
+ *     coordinates                             eq:joints.coordinates (dmb_joint_coordinates_at) */
 #include "constraint/joint.h"
 
 #include <stddef.h>
@@ -237,7 +247,8 @@ void dmb_joint_rows_at(int32_t kind, double length, const double R[9], const dou
     if (kind == DMB_JOINT_ROLLING) rolling_rows(length, R, p, V, rows);
 }
 
-/* Rhat_ij = e_i^T R R0^T e_j = r_i . (row j of R0) */
+/* Rhat_ij = e_i^T R R0^T e_j = r_i . (row j of R0). A lock is a fixed joint at (R0, p0): the same rows with the axes of
+ * frame b turned back by R0. */
 void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[9], const double p[3],
                          const double V[6], dmb_joint_rows *rows)
 {
@@ -245,6 +256,8 @@ void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[
     dot_rows(kinds[DMB_JOINT_FIXED].held, R0, p0, R, p, V, rows);
 }
 
+/* Rows R_yx = R_zx = 0 keep the x axes parallel, and hold as well if they point against each other (R_xx = -1); R_yz =
+ * 0 likewise for the y axes. A projection accepts that pose, so the signs of R_xx and R_yy are checked. */
 double dmb_joint_flip(int32_t kind, const double R[9])
 {
     const uint32_t held = kinds[kind].held;
@@ -316,6 +329,7 @@ static void angle_gradients(const lean *l, dmb_joint_coordinates *c)
     dmb_vec3_scale(l->c, l->m, c->JV[5] + 3);
 }
 
+/* At the singularity of RX and RY, where atan2 has no arguments, both keep the value `near`. */
 void dmb_joint_coordinates_at(const double R[9], const double p[3], const double V[6], const double near[2],
                               dmb_joint_coordinates *c)
 {

@@ -81,6 +81,9 @@ static void eliminate(const dmb_partition *p, double *a, double *top)
     }
 }
 
+/* After k pivots the remaining rows are a Schur complement: a row that depends on the pivot rows has become rounding,
+ * hence the end of the loop at DMB_RANK_TOLERANCE of its length. The pivot row and the dependent column move to place k
+ * of their orders, the others keep their sequence (eq:joints.partition). */
 double dmb_partition_choose(const double *B, uint32_t stride, const double *weight, double *work,
                             dmb_partition *partition)
 {

@@ -1,3 +1,8 @@
+/* Rate limit and lag of an actuator over a step (eq:drive.lag), and the delay line of its commands.
+ *
+ * The line is a list of samples in the order of time, read linearly between them. Two samples of one time are a jump:
+ * dmb_delay_before reads its left side, dmb_delay_after its right side. Samples are kept DMB_DELAY_PARTS to a delay;
+ * those of jumps and breakpoints are extra. */
 #include "force/actuator_law.h"
 
 #include <math.h>
@@ -17,6 +22,8 @@ static double decay_of(double x)
     return dmb_real_exp(-x);
 }
 
+/* r1 is u1 within R h of r0 (eq:drive.actuator). Without a rate limit r is taken as linear between the commands u0 and
+ * u1. Returns the derivative of the force by the delayed command, w dr1/du1: 0 while the rate limit acts. */
 double dmb_actuator_follow(const dmb_actuator_law *law, double h, double u0, const dmb_actuator_flow *from,
                            dmb_actuator_flow *flow)
 {

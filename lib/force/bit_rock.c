@@ -1,3 +1,12 @@
+/* Weight and torque on a bit by the depth of cut (eq:bit.forces), with exact derivatives by U, V, Phi and Omega.
+ *
+ *     law            depth of cut d per revolution                        rock surface
+ *     ------------   --------------------------------------------------   ---------------------------------------------
+ *     rate           2 pi V/Omega g (eq:bit.rate)                         one number, the bottom
+ *     regenerative   n times the cut of one blade (eq:bit.regenerative)   function of the angle, kept in a ring buffer
+ *
+ * Both fade below DMB_BIT_SPIN_FLOOR, so that forces and derivatives are continuous through rest (bit.md, "Spin near
+ * zero"). */
 #include "force/bit_rock.h"
 
 #include <math.h>
@@ -98,6 +107,9 @@ static double surface_at(const dmb_bit_history *history, double angle, double *s
     return history->surface[a] + *slope * (angle - history->angle[a]);
 }
 
+/* Ahead of the newest sample the blade meets the surface one blade spacing before. Behind it, after reverse rotation,
+ * the surface is that of the blade's own last pass; over DMB_LEDGE_STEPS samples it is blended with the former, because
+ * the step between both would be a jump of the force. */
 double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, double *slope)
 {
     const double newest = history->angle[history->head];
@@ -116,6 +128,8 @@ double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, doubl
     return before + blend * (last - before);
 }
 
+/* A pass that stays above the rock leaves the surface as it was: fmax(U, before). After reverse rotation by more than a
+ * blade spacing another blade is in the place of this one: `offset` counts it. */
 void dmb_bit_history_record(dmb_bit_history *history, double Phi, double U)
 {
     const double newest = history->angle[history->head];
@@ -186,6 +200,7 @@ static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const
     out->depth_of_cut = depth->value;
 }
 
+/* g and d of eq:bit.rate as functions with derivatives: U enters by the engagement alone. */
 static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, double omega, dmb_bit_rock_result *out)
 {
     double grip_slope, inverse_slope;
@@ -200,6 +215,7 @@ static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, do
     assemble(law, &d, &g, omega, out);
 }
 
+/* d_n of eq:bit.regenerative is the intrusion below the surface; Phi enters by the slope of the surface. */
 static void regenerative_law(const dmb_bit_rock_law *law, double intrusion, double surface_slope, double omega,
                              dmb_bit_rock_result *out)
 {
@@ -215,6 +231,8 @@ static void regenerative_law(const dmb_bit_rock_law *law, double intrusion, doub
     assemble(law, &d, &g, omega, out);
 }
 
+/* Off the rock all forces are 0. The limit of eq:bit.no-work is applied to the regenerative law alone; the rate law has
+ * no depth of cut for V < 0. */
 void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *history, double bottom, double U, double V,
                         double Phi, double Omega, dmb_bit_rock_result *out)
 {

@@ -22,6 +22,7 @@ static double smoothed_decay(const dmb_friction_law *law, double s)
            (law->points > 0 ? dmb_friction_table_decay(law, s, &slope) : dmb_stribeck_decay(law, s, &slope));
 }
 
+/* 1/kappa by bisection for the maximum, which lies between v_eps and v_eps + v_s. */
 static double peak_of_curve(const dmb_friction_law *law)
 {
     const double eps = law->smoothing_speed, right = eps * eps * law->stribeck_speed;
@@ -64,6 +65,7 @@ static double peak_of_table(const dmb_friction_law *law)
     return most;
 }
 
+/* A = peak_bump and B = peak_level of eq:friction.peak; both 0 for laws without a static maximum. */
 dmb_friction_law dmb_friction_law_of(dmb_friction_law law)
 {
     law.peak_bump = law.peak_level = 0.0;

@@ -1,3 +1,14 @@
+/* The hole's axis from a survey, frames on it, and the constants of the wall by depth.
+ *
+ *     quantity                 representation                              equation
+ *     ----------------------   -----------------------------------------   ------------------------------------------
+ *     axis                     line, or arcs between stations              eq:hole.arc, tangents eq:hole.tangent
+ *     frame of the hole        tangent, horizontal y, z = t x y            not defined by the axis where it is vertical
+ *     frame without twist      carried from station to station             eq:hole.carried
+ *     radius, stiffness, ...   parabolas between depths (pieces)           eq:hole.section
+ *     widening by cutters      values at stations, joined as above         eq:hole.cut
+ *
+ * Within an arc all of them have closed forms; beyond the first and the last station the axis is straight. */
 #include "force/hole.h"
 
 #include <math.h>
@@ -58,6 +69,7 @@ static void side_of(const double t[3], double y[3])
     (void)normalise(y);
 }
 
+/* eq:hole.tangent, normalised: sines and cosines are rounded. */
 static void survey_tangent(const double row[3], double t[3])
 {
     double sine, cosine, sine_azimuth, cosine_azimuth;
@@ -71,7 +83,7 @@ static void survey_tangent(const double row[3], double t[3])
 }
 
 /* Sets the arc of a station from its tangent and the next one's. Returns 0 if the dogleg is above DMB_HOLE_DOGLEG_MAX.
- */
+ * The angle is that of atan2(|t0 x t1|, t0 . t1), exact also for small bends; n is towards the centre of the arc. */
 static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
 {
     double axis[3];
@@ -88,7 +100,7 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
 }
 
 /* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n (eq:hole.arc) and its two derivatives, at distance r beyond a station, k
- * its curvature */
+ * its curvature. 1 - cos(k r) = 2 sin^2(k r/2) keeps its digits for small bends. */
 static void along_arc(const dmb_hole_station *from, double r, double x[3], double t[3], double curvature[3])
 {
     const double angle = from->curvature * r;
@@ -106,7 +118,8 @@ static void along_arc(const dmb_hole_station *from, double r, double x[3], doubl
     }
 }
 
-/* If all stations have the same direction, the hole becomes a straight line, which is faster. */
+/* If all stations have the same direction, the hole becomes a straight line, which is faster. The origin is moved back
+ * to measured depth 0. */
 static void straighten(dmb_hole *hole)
 {
     for (uint32_t i = 0; i < hole->stations; ++i)
@@ -139,6 +152,7 @@ static void carry_to(const dmb_hole_station *from, dmb_hole_station *to)
     (void)normalise(to->carried);
 }
 
+/* The point of a station is the end of the arc before it, so that the axis is continuous to rounding. */
 static int64_t place_stations(uint32_t stations, const double *survey, const double origin[3],
                               dmb_hole_station *storage)
 {
@@ -256,6 +270,7 @@ void dmb_hole_carried_rotation(const dmb_hole *hole, double s, double R[9])
     columns_of(t, y, R);
 }
 
+/* Rotation from the carried frame at one depth to that at another, in world axes. */
 void dmb_hole_carry(const dmb_hole *hole, double from, double to, double R[9])
 {
     double before[9], after[9];
@@ -282,7 +297,8 @@ void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, dou
     dmb_vec3_scale(arc->curvature, bend, bend);
 }
 
-/* About t the rate is t . w = z . y' with y = e_z x t, normalised. */
+/* About t the rate is t . w = z . y' with y = e_z x t, normalised. Across t it is t x k, as of the carried frame. Where
+ * the horizontal part of t is below 1e-9, the rate about t is left out. */
 void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3])
 {
     const double across = t[0] * t[0] + t[1] * t[1];
@@ -305,6 +321,7 @@ const dmb_hole_piece *dmb_hole_piece_at(const dmb_hole *hole, double s)
     return hole->piece + low;
 }
 
+/* The least value of each parabola between two depths: at its ends or, if it opens upwards, at its vertex. */
 double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double *where)
 {
     double least = hole->radius;
@@ -331,7 +348,7 @@ double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double 
 /* ---- Widened by cutters ------------------------------------------------------------------------------------------ */
 
 /* Fraction of the distance between two stations, 0 .. 1, to the fraction of the step between their values, with
- * derivatives. */
+ * derivatives. Two parabolas joined in the middle (eq:hole.section). */
 static void part_of_step(double x, double step[3])
 {
     const double y = 1.0 - x;
@@ -354,6 +371,7 @@ void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3])
     widening[2] = by * step[2] / (hole->cut_spacing * hole->cut_spacing);
 }
 
+/* By how much the radius at s grows if station j is widened by 1. */
 double dmb_hole_fraction_of_cut(const dmb_hole *hole, uint32_t j, double s)
 {
     const double x = 1.0 - fabs((s - hole->cut_start) / hole->cut_spacing - (double)j);
@@ -420,6 +438,7 @@ static void add_widening(const dmb_hole *hole, double s, dmb_local_wall *wall)
     wall->radius_bend += widening[2];
 }
 
+/* With the derivatives by depth that enter eq:hole.section-force and its tangent. */
 void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const dmb_friction_law *friction, double s,
                        double softer, dmb_local_wall *out)
 {

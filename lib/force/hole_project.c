@@ -1,5 +1,6 @@
 /* Points of the hole's axis nearest to a given point: tracked from a known arc, or searched within a range of depths.
- */
+ * The distance has a minimum where the point lies in the plane across the axis (eq:hole.foot); a hole that turns back
+ * has several. */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -60,6 +61,7 @@ static void project_on_line(const double origin[3], const double direction[3], c
     dmb_vec3_copy(direction, tangent);
 }
 
+/* Moves from the hinted arc to its neighbours, so that a point that moves on keeps its minimum. */
 void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
                       double tangent[3])
 {
@@ -105,6 +107,7 @@ static foot foot_on(const dmb_hole *hole, const double x[3], uint32_t arc, doubl
     return f;
 }
 
+/* At a crossing of the hole with itself both minima are equally near: the requested depth or direction decides. */
 static int is_better(const foot *a, const foot *b)
 {
     if (fabs(a->distance - b->distance) > DMB_HOLE_CROSSING) return a->distance < b->distance;

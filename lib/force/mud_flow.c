@@ -1,3 +1,15 @@
+/* Pressure losses of circulating mud (formulas and sources: mud_flow.h).
+ *
+ *     function               flow                                              equation
+ *     --------------------   -----------------------------------------------   ------------------------------------
+ *     dmb_bore_loss          pipe, with or without a yield stress              eq:mud.pipe, eq:mud.pipe-yield
+ *     laminar_gradient       concentric annulus, power law                     eq:mud.zero-shear, eq:mud.annulus
+ *     with_yield             annulus, yield stress, from the slot              eq:mud.slot, eq:mud.annulus-yield
+ *     turbulence             transition and turbulence                         eq:mud.turbulent
+ *     newtonian              eccentric annulus, exponent 1                     eq:mud.eccentric
+ *     correlation            eccentric annulus, other exponents                eq:mud.eccentric-power
+ *
+ * Powers and logarithms are the library's own, so that results have the same bits on every processor. */
 #include "force/mud_flow.h"
 
 #include <math.h>
@@ -53,7 +65,7 @@ static double root_between(rising function, const void *context, double low, dou
 
 /* ---- Laminar and turbulent --------------------------------------------------------------------------------------- */
 
-/* (f_i/f_l)^12 of eq:mud.turbulent */
+/* (f_i/f_l)^12 of eq:mud.turbulent. The laminar gradient times the 12th root of 1 plus this is that of the whole. */
 static double turbulence(double n, double reynolds)
 {
     const double critical = 3470.0 - 1370.0 * n, log_n = logarithm(n) / LN_10;

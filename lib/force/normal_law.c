@@ -133,6 +133,7 @@ void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, doub
     *d_rate = out.d_rate;
 }
 
+/* K d^(n+1)/(n+1) per metre of wall (eq:contact.normal without damping). */
 double dmb_normal_energy(const dmb_normal_law *law, double depth)
 {
     if (depth <= 0.0 || law->kind == DMB_NORMAL_NONE) return 0.0;

@@ -47,6 +47,8 @@ static void way_at_rate(const dmb_reference *r, double most, way *w)
     lay(r, length[0] > 0.0 ? copysign(most, rise) : 0.0, none, length, w);
 }
 
+/* The middle phase exists only at the rate limit; without it peak is the rate at which acceleration turns into
+ * deceleration. */
 static void way_of(const dmb_reference *r, way *w)
 {
     const double most = or_none(r->rate_limit), slope = r->slope_limit, a0 = r->rate;
@@ -104,6 +106,7 @@ static double integral_of(const way *w, int k, double t0, double t1)
     return h * (value + h * (0.5 * rate + h * w->slope[k] / 6.0));
 }
 
+/* Parts before, within and after the transition: exact, as motion drives require. */
 double dmb_reference_integral(const dmb_reference *reference, double t0, double t1)
 {
     way w;

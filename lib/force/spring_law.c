@@ -1,3 +1,6 @@
+/* Laws of springs between points (table, one-sided) and of joint coordinates (spring, damper, friction, stop), with
+ * exact derivatives and potentials (forms: spring_law.h). A damper never makes a one-sided force change its sign: where
+ * it would, the whole force is 0, and with it the derivatives. */
 #include "force/spring_law.h"
 
 #include <math.h>
@@ -58,7 +61,8 @@ static table_value beyond(const dmb_spring_point *p, double x, double slope)
     return value;
 }
 
-/* f0 + h (s0 u + a u^2 + b u^3), a = 3 d - 2 s0 - s1, b = s0 + s1 - 2 d, u = 0 .. 1, d the slope between. */
+/* f0 + h (s0 u + a u^2 + b u^3), a = 3 d - 2 s0 - s1, b = s0 + s1 - 2 d, u = 0 .. 1, d the slope between. E and slope
+ * are the integral and the derivative of the same polynomial, so that the force is the gradient of E. */
 static table_value inside(const dmb_spring_point *p, double x)
 {
     const double h = p[1].elongation - p[0].elongation, u = (x - p->elongation) / h, d = slope_between(p);
@@ -97,7 +101,8 @@ static double integral_at(const dmb_spring_law *law, const dmb_spring_point *poi
     return x * (law->preload + 0.5 * law->stiffness * x) + table_at(law, points, x).energy;
 }
 
-/* Zero of a nondecreasing force, by bisection to the last bit. */
+/* Zero of a nondecreasing force, by bisection to the last bit. Where the force is 0 over an interval, slack is the end
+ * at which the force begins. */
 static int find_slack(dmb_spring_law *law, const dmb_spring_point *points)
 {
     double low = -DMB_SLACK_FAR, high = DMB_SLACK_FAR;

@@ -1,3 +1,12 @@
+/* Time functions as sums of segments: value, rate, integral and breakpoints (eq:drive.step; segments given by numbers
+ * alone: time_segment.c).
+ *
+ *     segment           rate                                   integral
+ *     ---------------   ------------------------------------   ------------------------------------------------------
+ *     numbers alone     exact                                  exact
+ *     callback          its own, or a central difference       its own, or five-point Gauss rules of 0.05 s
+ *     per revolution    exact                                  eq:drive.per-revolution; the part of h1 by Gauss rules
+ */
 #include "force/time_function.h"
 
 #include <math.h>
@@ -140,7 +149,8 @@ static double breakpoint_of(const dmb_time_function *turning, double t)
     return breakpoint;
 }
 
-/* Intervals of Gauss rules between the neighbouring breakpoints a and b of w, for sin psi. */
+/* Intervals of Gauss rules between the neighbouring breakpoints a and b of w, for sin psi. Each interval covers at most
+ * DMB_GAUSS_ANGLE of psi and of the fastest change of w itself. */
 static double swing_parts(const dmb_segment *segment, double a, double b)
 {
     const dmb_time_function *turning = segment->callback_context;
@@ -242,6 +252,7 @@ static int32_t segment_integral(const dmb_segment *segment, double t0, double t1
     return DMB_OK;
 }
 
+/* Rates at a breakpoint are those after it; dmb_time_function_rate_before gives those before. */
 int32_t dmb_time_function_value(const dmb_time_function *time_function, double t, double *value, double *rate)
 {
     double sum = 0.0;
@@ -278,6 +289,7 @@ int32_t dmb_time_function_rate_before(const dmb_time_function *time_function, do
     return DMB_OK;
 }
 
+/* Motion drives move by it: an error would be a drift of their position. */
 int32_t dmb_time_function_integral(const dmb_time_function *time_function, double t0, double t1, double *integral)
 {
     const double sign = t1 < t0 ? -1.0 : 1.0;

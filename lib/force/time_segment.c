@@ -1,3 +1,6 @@
+/* Segments of time functions that numbers alone describe: STEP, STEP5 (eq:drive.step), HARMONIC, TABLE, PERIODIC and
+ * the reference of an input (eq:drive.reference). Integrals are written as the length of the interval times a mean, not
+ * as differences of antiderivatives, so that short steps late in a run keep their digits. */
 #include "force/time_segment.h"
 
 #include <math.h>
@@ -265,6 +268,7 @@ double dmb_time_segment_integral(const dmb_segment *segment, double t0, double t
     }
 }
 
+/* Ends of ramps and knots of tables, at which steps end. */
 double dmb_time_segment_next_breakpoint(const dmb_segment *segment, double t)
 {
     switch (segment->kind) {

@@ -1,3 +1,12 @@
+/* Ends of unilateral laws in a step and their mean force (eq:unilateral.mean).
+ *
+ *     law                     x                       depth d                     closed
+ *     ---------------------   ---------------------   -------------------------   -------------------------------
+ *     stop                    joint coordinate        beyond the bound, signed    d is not 0
+ *     spring of a joint       joint coordinate        0                           always
+ *     spring between points   elongation              beyond slack; two-sided 0   elastic force or its slope is not 0
+ *
+ * V is the energy that the law stores, dV/dx the elastic force. Dampers of two-sided springs are no part of it. */
 #include "force/unilateral.h"
 
 #include <string.h>
@@ -50,6 +59,7 @@ void dmb_spring_end_at(const dmb_spring_law *law, const dmb_spring_point *points
     end->slope = f.by_elongation;
 }
 
+/* Closed at the end but not at the start, or through from one bound to the other. */
 int dmb_unilateral_touches(const dmb_unilateral_end *a, const dmb_unilateral_end *b)
 {
     return b->closed && (!a->closed || a->depth * b->depth < 0.0);
@@ -69,6 +79,8 @@ static dmb_mean_end mean_end_of(const dmb_unilateral_end *end)
     return to;
 }
 
+/* G = (V1 - V0)/(x1 - x0) + c (d1 - d0)/h; by_place is its derivative by x1. G (x1 - x0) is the energy that the bodies
+ * lose (eq:unilateral.energy), so that what the law does not store of it is dissipated. */
 void dmb_unilateral_mean_of(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double damping, double step,
                             dmb_unilateral_mean *mean)
 {

@@ -3,8 +3,8 @@
  *     index u                             law                            can open           holds
  *     ---------------------------------   ----------------------------   ----------------   ----------------
  *     0 .. law_count - 1                  stop of a joint coordinate     if it has bounds   never
- *     law_count .. + spring_count - 1     spring between two points      one-sided, or      two-sided with
- *                                                                        flat at 0          a stiffness
+ *     law_count .. + spring_count - 1     spring between two points      one-sided, or      two-sided, without a
+ *                                                                        with a table       table, with a stiffness
  *     behind, + law_count                 spring of a joint coordinate   never              with a stiffness
  *
  * Laws that can open have mean forces where they touch or open (eq:unilateral.mean), laws that hold where their

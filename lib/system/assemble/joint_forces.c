@@ -1,4 +1,14 @@
-/* Forces of joints: springs, dampers, stops, friction and drives of their coordinates, forces of constraint. */
+/* Forces of joints: springs, dampers, stops, friction and drives of their coordinates, forces of constraint.
+ *
+ * A force f on a coordinate with gradient J (by the relative twist V) is the wrench J^T f on frame b; the bodies get
+ * Lambda_b^T and Lambda_a^T of it (eq:joints.relative-motion). Order of dmb_assemble_joints:
+ *
+ *     1. laws and drives of each joint       forces, powers, tangents (eq:joints.relative-tangent)
+ *     2. gyroscopic part of mean forces      eq:unilateral.gyroscopic
+ *     3. multipliers                         they balance all forces so far (eq:joints.multipliers)
+ *     4. curvature of the equations          d(B^T f)/dq with these multipliers
+ *
+ * Open joints have no forces: their drives follow the coordinate, their laws are at rest. */
 #include "system/assemble/assemble.h"
 
 #include <math.h>
@@ -63,7 +73,8 @@ static void add_mean(coordinate_forces *f, int i, const dmb_bounce_force *own)
     f->has_mean = 1;
 }
 
-/* Mean forces of stop and spring of coordinate i. */
+/* Mean forces of stop and spring of coordinate i. The mean force takes the place of that part of the law alone: `bare`
+ * is the law without it. The heat of a stop is its damper's; it is moved from the potential forces to the impact. */
 static void take_own(dmb_evaluation *evaluation, uint32_t l, coordinate_forces *f, int i, dmb_joint_force *law)
 {
     const double x = f->c.value[i], speed = f->speed[i];
@@ -87,7 +98,8 @@ static void take_own(dmb_evaluation *evaluation, uint32_t l, coordinate_forces *
     evaluation->power[DMB_POWER_IMPACT] += of_stop.heat;
 }
 
-/* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. */
+/* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. Forces
+ * are positive along growing coordinates. */
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
     for (int i = 0; i < 6; i++) {
@@ -152,7 +164,9 @@ static void add_wrenches(const dmb_relative *relative, const dmb_joint_coordinat
     for (int k = 0; k < 6; k++) wa[k] += of_a[k], wb[k] += of_b[k];
 }
 
-/* A unit of mean force on coordinate i: half along the gradient of the start of the step, in nodes that turn. */
+/* A unit of mean force on coordinate i: half along the gradient of the start of the step, in nodes that turn. The other
+ * half is the gradient of the end (eq:unilateral.turning). The gradient of the start is carried into the axes reached;
+ * nodes that do not turn have J0 = J1. */
 static void unit_mean(const dmb_sim *sim, const dmb_scene_joint *joint, const coordinate_forces *before,
                       const coordinate_forces *end, int i, double w[2][6])
 {
@@ -169,6 +183,8 @@ static void unit_mean(const dmb_sim *sim, const dmb_scene_joint *joint, const co
     }
 }
 
+/* Couples about the rotation of the step close the gap between the mean of both gradients and the exact mean gradient
+ * (dmb_bounce_close_gap), so that the work of the mean force is G (x1 - x0). */
 static void add_mean_wrenches(dmb_evaluation *evaluation, const dmb_scene_joint *joint, uint32_t j,
                               const coordinate_forces *f, double wa[6], double wb[6])
 {
@@ -196,7 +212,8 @@ static void apply(dmb_evaluation *evaluation, const dmb_scene_joint *joint, uint
     if (joint->a.node != DMB_NONE) dmb_apply_wrench(evaluation->sim, joint->a.node, wa);
 }
 
-/* -d(J^T f)/dq: W of the gradients and J^T f' J. */
+/* -d(J^T f)/dq: W of the gradients and J^T f' J. At constant rates: the change of the speeds with the pose is not in
+ * the tangent. */
 static void add_position_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
                                  const coordinate_forces *f, double *K)
 {
@@ -237,6 +254,7 @@ static void add_mean_tangent(const dmb_evaluation *evaluation, const dmb_constra
     }
 }
 
+/* -d(J^T f)/dv in pose parameters: gamma' times the slope of each law and drive by its speed, J^T J. */
 static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
                               const coordinate_forces *f, double *K)
 {
@@ -251,7 +269,8 @@ static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *
     }
 }
 
-/* K <- K T6 in the columns of six-DOF nodes, as for the blocks of the nodes. */
+/* K <- K T6 in the columns of six-DOF nodes, as for the blocks of the nodes. T6 turns increments z into body-frame
+ * displacements (eq:kinematics.tangent-pose, eq:integration.iteration-matrix). */
 static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint *constraint, double *K)
 {
     const dmb_sim *sim = evaluation->sim;

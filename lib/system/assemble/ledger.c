@@ -1,3 +1,13 @@
+/* Ledger of energy: works of the classes of force over accepted steps, and the error of their balance (eq:motion.work,
+ * eq:motion.trapezoid-excess). Order of dmb_ledger_add:
+ *
+ *     1. trapezoidal rule of all powers, between the stored ones of the start and those of the evaluation
+ *     2. its excess over the work of the step, of friction, dampers, rock and drives (ledger_work.c), is moved to the
+ *        potential forces: the works of all classes still sum to that of the residual
+ *     3. the powers become those of the next start; the balance is stored at growing intervals
+ *
+ * Balance: works of loads, drives, friction, impact, damping and rock less the growth of the stored energies. It is the
+ * error of the time integration; no work is computed by closing it. */
 #include "system/assemble/ledger.h"
 
 #include <math.h>
@@ -6,6 +16,7 @@
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
 
+/* [W] Of a drive in a configuration. */
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {
     return c->drives[i].force * dmb_drive_speed(sim->scene, c, i);
@@ -38,6 +49,7 @@ static void mark_balance(dmb_sim *sim, double time)
     mark[1] = dmb_ledger_balance(ledger, dmb_energy_stored(sim, &sim->trial));
 }
 
+/* Interpolated between the stored marks; outside of them the value of the nearest one. */
 double dmb_ledger_balance_before(const dmb_ledger *ledger, double time)
 {
     const double *mark = ledger->mark;
@@ -113,6 +125,7 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation, int released
     mark_balance(sim, evaluation->time);
 }
 
+/* Both classes change by the same amount, so that their sum stays. */
 void dmb_ledger_move(dmb_sim *sim, int kind, double excess)
 {
     sim->ledger->work[kind] -= excess;
@@ -133,6 +146,7 @@ void dmb_ledger_add_rock(dmb_sim *sim, double stored)
     sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
 }
 
+/* Parameters that the caller changes give the poses another energy without a motion: it is work of the loads. */
 void dmb_ledger_add_change(dmb_sim *sim, double stored)
 {
     sim->ledger->work[DMB_POWER_LOADS] += stored;

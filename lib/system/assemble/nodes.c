@@ -1,4 +1,15 @@
-/* Forces of single nodes: rigid masses, gravity, external damping. */
+/* Forces of single nodes, in their own axes.
+ *
+ *     force                       residual                                 equation
+ *     -------------------------   --------------------------------------   -------------------------------------
+ *     rigid masses                M v' - ad_v^T M v                        eq:motion.rigid-mass, eq:motion.gyroscopic
+ *     weight                      -(m R^T g; b x R^T g)                    eq:motion.weight
+ *     external damping            C v, a constant matrix of the node
+ *     added mass of rigid parts   M_a v' - ad_v^T M_a v                    eq:mud.kirchhoff
+ *     flow of mud                 drag along the hole, thrust at the end   eq:mud.along, eq:mud.nozzle
+ *     loads                       -w of the load, dead or follower
+ *
+ * Rigid masses and damping act in steps only, weight and loads times the load factor in statics as well. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -67,6 +78,7 @@ static uint32_t rigid_mass_from(const dmb_scene *scene, uint32_t next, uint32_t 
     return next;
 }
 
+/* Chunks write rows of their own nodes only; their powers are added in order afterwards. */
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
     const node_chunks *in = work;
@@ -130,6 +142,8 @@ void dmb_assemble_nodes(dmb_evaluation *evaluation)
 
 /* ---- Mud --------------------------------------------------------------------------------------------------------- */
 
+/* As a rigid mass whose translational mass depends on the direction: p is not parallel to u, and the cross product of
+ * both is Munk's moment. */
 static void assemble_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
 {
     dmb_sim *sim = evaluation->sim;
@@ -215,6 +229,7 @@ static void pull_along(dmb_evaluation *evaluation, uint32_t node, double pull)
     if (evaluation->dynamic) evaluation->power[DMB_POWER_LOADS] -= pull * sim->trial.velocity[row];
 }
 
+/* The drag acts on nodes; the thrust of the nozzle on the end of the first string, towards the rig. */
 void dmb_assemble_flow(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -232,6 +247,8 @@ void dmb_assemble_flow(dmb_evaluation *evaluation)
 
 /* Described loads: dead (world or hole frame) and follower (body frame), each times its time function. */
 
+/* Axes of the components of a dead load, world: those of the hole at the closest point of its axis, or the world's own.
+ */
 static void frame_of_load(const dmb_sim *sim, const dmb_configuration *c, const dmb_scene_load *load, double R[9])
 {
     const dmb_scene *scene = sim->scene;
@@ -262,6 +279,7 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
     }
 }
 
+/* A load in hole axes also turns with the place of its node along the hole; that change is not in the tangent. */
 static void assemble_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
 {
     dmb_sim *sim = evaluation->sim;

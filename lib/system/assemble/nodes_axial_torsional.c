@@ -1,5 +1,12 @@
 /* Axial-torsional nodes: rigid masses one by one; weight, damping and friction on the wall by the kernels
- * (kernel/lanes_axial_torsional_node.h), which compute the frame of the hole at each node once. */
+ * (kernel/lanes_axial_torsional_node.h), which compute the frame of the hole at each node once.
+ *
+ * The node follows the hole's axis, so that the wall balances all that acts across: weight and, in a bend, tension
+ * times curvature (eq:drilling.wall-force). That normal force enters friction alone, whose tangent by the tension
+ * couples the node with its two neighbours.
+ *
+ *                  before              after
+ *     node - 1 ------------- node ------------- node + 1        tension: mean of both, or the only one */
 #include <string.h>
 
 #include "element/beam.h"
@@ -49,7 +56,8 @@ static int is_stretched(const dmb_scene *scene, uint32_t node)
            scene->layout.size[node] + scene->layout.size[node + 1] == 2 * DMB_NODE_AXIAL_TORSIONAL;
 }
 
-/* Mean tension of the elements on both sides of each node [N]. */
+/* Mean tension of the elements on both sides of each node [N]. With mud it is the effective tension (eq:mud.effective),
+ * by which elements are strained. */
 static void find_tensions(const dmb_sim *sim, uint32_t first, uint32_t count, double *tension)
 {
     const dmb_scene *scene = sim->scene;
@@ -70,7 +78,8 @@ static void find_tensions(const dmb_sim *sim, uint32_t first, uint32_t count, do
     }
 }
 
-/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. */
+/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. Neighbours on
+ * six-DOF nodes are left out: their tension depends on the pose of the neighbour. */
 static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[2])
 {
     const dmb_scene *scene = sim->scene;
@@ -157,7 +166,7 @@ static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, c
     return args;
 }
 
-/* Steady sliding has no memory. */
+/* Steady sliding has no memory. In statics without an assumed slip there is no friction. */
 static const dmb_friction_law *law_for(const dmb_evaluation *evaluation, node_chunk *chunk)
 {
     const dmb_friction_law *law = &evaluation->sim->scene->friction_law;
@@ -167,6 +176,7 @@ static const dmb_friction_law *law_for(const dmb_evaluation *evaluation, node_ch
     return &chunk->sliding;
 }
 
+/* In a straight hole the normal force is that of the weight, without tensions and their tangents. */
 static void set_contact(const dmb_evaluation *evaluation, node_chunk *chunk, dmb_axial_torsional_node_args *args)
 {
     const dmb_sim *sim = evaluation->sim;

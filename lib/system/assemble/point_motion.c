@@ -1,3 +1,13 @@
+/* Pose, twist and map of the point of action of a force.
+ *
+ *     place           nodes   axes R, position x                        map from node velocities to the twist V
+ *     -------------   -----   ---------------------------------------   --------------------------------------------
+ *     ground          0       world, as described                       none
+ *     on a node       1       those of the node, offset in them         (I, -x~; 0, I), constant
+ *     in an element   2       section (eq:beam.section-pose)            Phi(d) (eq:motion.section-map), shifted
+ *
+ * A wrench w on the point is map^T w on the nodes: equal power for every motion. The tangent of map^T w has two parts,
+ * of w by the displacement of the point and of the map (dmb_point_map_tangent); forces add the first themselves. */
 #include "system/assemble/point_motion.h"
 
 #include <string.h>
@@ -14,6 +24,7 @@ static const dmb_element_type *type_of(const dmb_scene *scene, const dmb_scene_p
     return scene->types + scene->element_type[point->element];
 }
 
+/* On axial-torsional nodes the section stays on the straight line between them, without the cubic correction. */
 static void shape_of(const dmb_scene *scene, const dmb_scene_point *point, dmb_section_shape *shape)
 {
     const int path = scene->layout.size[point->node] == DMB_NODE_AXIAL_TORSIONAL &&
@@ -120,6 +131,7 @@ void dmb_force_tangent_begin(dmb_force_tangent *tangent)
     tangent->nodes = tangent->columns = 0;
 }
 
+/* Two points of one force may share nodes: each node gets its columns once. */
 void dmb_force_tangent_touch(const dmb_scene *scene, const dmb_point_motion *motion, dmb_force_tangent *tangent)
 {
     for (uint32_t n = 0; n < motion->nodes; n++) {

@@ -29,6 +29,7 @@ typedef struct stuck_motion {
 /* Index of stiffness[3] (along, about, sideways) of each coordinate. */
 static const int kind_of[COORDINATES] = {0, 2, 2, 1};
 
+/* The coordinates are singular at Q_xx = -1, half a turn of the place across the anchor's axis. */
 static void motion_of(const dmb_sim *sim, const dmb_configuration *c, uint32_t i, stuck_motion *m)
 {
     const double *R0 = sim->stuck_anchor + 12 * (size_t)i, *x0 = R0 + 9;
@@ -74,6 +75,8 @@ void dmb_stuck_wrench_of(const dmb_sim *sim, const dmb_configuration *configurat
     }
 }
 
+/* Release is by the force along the hole or the torque about it, whichever is nearer to its limit; sideways forces do
+ * not free a place. */
 double dmb_stuck_ratio(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates)
 {
     const dmb_scene_stuck *stuck = sim->scene->stuck + i;
@@ -200,6 +203,8 @@ static void count_rounding(dmb_evaluation *evaluation, uint32_t i, const dmb_sce
     if (dmb_rounding_counts(evaluation)) evaluation->rounding += k * k + stuck->stiffness[1] * stuck->stiffness[1];
 }
 
+/* Adds w = J^T f, f = k s + c s' of each coordinate, to the nodes; the springs count as potential, the dampers as
+ * damping. */
 static void gather(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
@@ -263,6 +268,7 @@ void dmb_stuck_start(dmb_sim *sim, uint32_t i)
     sim->stuck_held[i] = stuck->input != DMB_NONE ? sim->input_value[stuck->input] > 0.5 : stuck->initially;
 }
 
+/* Setting what is set already keeps the anchor, and with it the force. */
 void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held)
 {
     if (sim->stuck_held[i] == held) return;
@@ -270,6 +276,7 @@ void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held)
     sim->stuck_held[i] = held;
 }
 
+/* Positions are relative to the described one of the node (point_motion.h), which may differ between the models. */
 void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i)
 {
     double *to = sim->stuck_anchor + 12 * (size_t)i;

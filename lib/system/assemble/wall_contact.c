@@ -1,5 +1,17 @@
-/* Contact points at the wall of the hole: their forces in the residual, and derivatives of a force by the motion of its
- * point. */
+/* Contact points at the wall of the hole: their forces in the residual (eq:contact.wrench), the laws that an evaluation
+ * uses, and questions about a finished configuration.
+ *
+ *     evaluation                      normal force                          friction
+ *     -----------------------------   -----------------------------------   ------------------------------------------
+ *     step                            law of the scene, weighted after      law of the scene
+ *                                     touch (eq:touch.weights)
+ *     step, contact unresolved        mean force (eq:contact.mean)          law under the mean force
+ *     statics                         elastic part                          none, or at the assumed slip (`slipping`)
+ *       wall_softness s               stiffness over s
+ *     steady sliding or drilling      as above                              limit of bristles in sliding
+ *       frictionless f                                                      coefficients times 1 - f
+ *
+ * Numbers of contact points: on six-DOF nodes, then inside elements, then on axial-torsional nodes. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -11,6 +23,7 @@
 #include "math/vec3.h"
 #include "system/assemble/evaluation.h"
 
+/* Slopes of the laws of a finished configuration, for linear analyses. An open point has none. */
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
 {
     const int full = site < scene->site_count;
@@ -45,7 +58,8 @@ uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site)
 
 /* ---- Friction of a ring that slips ------------------------------------------------------------------------------- */
 
-/* Closest point of the hole's axis to a contact point, and the contact frame there. */
+/* Closest point of the hole's axis to a contact point, and the contact frame there. Depth and segment of the trial are
+ * copies: a question does not move the search of the next evaluation. */
 static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_frame *f)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -74,7 +88,8 @@ static double called_normal_force(const dmb_scene *scene, const dmb_configuratio
     return force.normal_force;
 }
 
-/* Friction along and around per unit of normal force; 0: no slip. */
+/* Friction along and around per unit of normal force; 0: no slip. In statics the slip is the assumed one, of the whole
+ * string; the surface moves with the radius of the point. */
 static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
 {
     const dmb_sim *sim = evaluation->sim;
@@ -180,6 +195,9 @@ static void leave_friction_out(const dmb_evaluation *evaluation, own_laws *laws,
     args->hole = &laws->hole;
 }
 
+/* `yield` and `slows` are beta/gamma h^2/m and h/m of the first evaluation of a step, which has not yet moved by the
+ * mean forces: the kernels take the tangent of such a contact at the depth that it would come to (theory/contact.md,
+ * "Start of the iteration"). */
 static dmb_wall_args args_for(const dmb_evaluation *evaluation, own_laws *laws)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -214,6 +232,8 @@ static dmb_wall_args args_for(const dmb_evaluation *evaluation, own_laws *laws)
     return args;
 }
 
+/* Sums of powers and rounding continue those of the evaluation, whose order of addition is part of the result's bits.
+ */
 void dmb_assemble_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -233,6 +253,8 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation)
     if (laws.failed) dmb_friction_failed(evaluation);
 }
 
+/* Normal force of the step from its weighted value in memory (DMB_TOUCH_FORCE); friction and the force along a sloped
+ * wall are in proportion to it. */
 void dmb_site_weighted_force(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
 {
     if (!dmb_scene_has_touch(sim->scene)) return;
@@ -285,7 +307,8 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, uint32
     dmb_arm_velocity(site->offset, V);
 }
 
-/* Closest point of the axis, its depth, the direction from it, and the speeds at the contact point. */
+/* Closest point of the axis, its depth, the direction from it, and the speeds at the contact point. Reads the
+ * configuration only: depth and segment are copies. */
 static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
                             dmb_contact_frame *f)
 {
@@ -323,6 +346,8 @@ static void local_force(const dmb_scene *scene, const dmb_site *site, double dep
     out->closed = 1;
 }
 
+/* In a hole without sections a contact point without clearance is always closed, at a penetration of at least
+ * DMB_CONTACT_PENETRATION. In statics with an assumed slip dampers do not act. */
 void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, dmb_site_force *out)
 {
     const dmb_site *site = scene->sites + s;
@@ -353,6 +378,7 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
                           bristles ? configuration->site_sticks[s] : 0, out);
 }
 
+/* An open point has no present bristle: its friction is the limit of the law in steady sliding. */
 void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, dmb_site_force *f)
 {
     dmb_friction_law local;
@@ -376,6 +402,7 @@ double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *c
     return scene->sites[s].length * force;
 }
 
+/* Force of the damper times the rate of penetration: what the normal force does beyond its elastic part. */
 double dmb_site_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
 {
     return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
@@ -438,6 +465,8 @@ void dmb_contacts_start(dmb_sim *sim)
     }
 }
 
+/* Stored with the trial, because questions about it later need the slip under which its friction acts; 0 without one.
+ */
 void dmb_contacts_assume_slip(const dmb_evaluation *evaluation)
 {
     for (int i = 0; i < 2; i++)
@@ -471,7 +500,8 @@ void dmb_contacts_forget(dmb_sim *sim)
 /* [-] Deflection over the sticking limit, so that rounding does not make a sliding bristle stick. */
 #define DMB_SLIDING_BEYOND (1.0 + 1e-9)
 
-/* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding; or the state of the caller's law. */
+/* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding; or the state of the caller's law. Its own slip is the
+ * argument; with an infinite step the caller's law reaches its steady state. */
 static int32_t deflect(const dmb_sim *sim, uint32_t site, const double v[2], double *z, int32_t *sticks)
 {
     static const double none[DMB_FRICTION_STATES] = {0.0};

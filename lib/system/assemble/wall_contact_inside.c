@@ -1,4 +1,7 @@
-/* Contact points inside elements in runs, by the kernels (kernel/lanes_wall_inside.h, eq:contact.inside). */
+/* Contact points inside elements in runs, by the kernels (kernel/lanes_wall_inside.h, eq:contact.inside). Most points
+ * of a long pipe cannot reach the wall within a step. Such a point is not evaluated in the iterations: it keeps
+ * penetration and normal of the start and is evaluated once, at acceptance (dmb_contacts_accept). The bound on its way
+ * is a sum of the largest displacements that the increments of both nodes allow (reach_of). */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -83,6 +86,7 @@ static void keep_open(dmb_sim *sim, uint32_t s)
     dmb_vec3_copy(sim->now.site_normal + 3 * (size_t)s, sim->trial.site_normal + 3 * (size_t)s);
 }
 
+/* Neighbouring points that are due form runs, which the kernels compute in lanes. */
 void dmb_assemble_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_args *args)
 {
     const dmb_scene *scene = evaluation->sim->scene;

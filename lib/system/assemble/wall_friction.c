@@ -1,4 +1,6 @@
-/* Friction laws at contact points of the wall: of the section of the hole, of sliding alone, at the end of a step. */
+/* Friction laws at contact points of the wall: of the section of the hole, of sliding alone, at the end of a step. A
+ * law without memory follows from the speed. In a finished configuration a law with memory is evaluated at its present
+ * state with a step of length 0: the bristle does not move by the question. */
 #include "system/assemble/assemble.h"
 
 #include "sim/node.h"

@@ -124,6 +124,7 @@ void dmb_clusters_weigh(dmb_sim *sim, int bodies_only)
     }
 }
 
+/* Scratch memory is that of the projections, which do not run at the same time. */
 static void choose(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -192,6 +193,7 @@ static void watch_sparse(dmb_sim *sim)
     sim->counters->switches += before != after;
 }
 
+/* Changes are counted only if the set of dependent columns differs: a renewed choice may be the old one. */
 void dmb_clusters_watch(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
@@ -251,6 +253,7 @@ static void solve_multipliers(dmb_sim *sim, uint32_t k)
     for (uint32_t i = 0; i < partition.rank; i++) sim->trial.multiplier[cluster->row + partition.row_order[i]] = f[i];
 }
 
+/* residual += B^T f in all columns; the dependent ones then balance. */
 static void add_multipliers(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -286,6 +289,8 @@ static void least_norm(dmb_sim *sim, uint32_t k)
                              sim->cluster_gram + cluster->square, sim->trial.multiplier + cluster->row);
 }
 
+/* Multipliers that are given (unknowns of DMB_METHOD_MULTIPLIERS) leave a residual in the dependent rows too, which is
+ * part of their equations and is not cleared. */
 void dmb_clusters_balance(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;

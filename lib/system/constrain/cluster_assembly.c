@@ -111,7 +111,9 @@ static void solve_symmetric(size_t n, double *A, double *b)
     }
 }
 
-/* x of eq:joints.levenberg by column into cluster_move. */
+/* x of eq:joints.levenberg by column into cluster_move. As the damping goes to 0 with the violation squared, the
+ * iteration becomes Newton's near the solution; away from it, rows that depend on each other share the move instead of
+ * making it infinite. */
 static void damped_move(dmb_sim *sim, uint32_t k, double damping)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -162,7 +164,9 @@ static void column_of(const dmb_sim *sim, uint32_t base, uint32_t i, uint32_t c,
     dmb_adjoint_inverse_apply(turn, arm, unit, column);
 }
 
-/* Least-squares twist z of the base from the required twists x of the jointed nodes of the chain. */
+/* Least-squares twist z of the base from the required twists x of the jointed nodes of the chain. Normal equations of
+ * sum |W (J z - x)|^2 over the jointed nodes, W the length of the chain for rotations; components of z that supports of
+ * the base constrain are left out. 1e-12 on the diagonal makes z = 0 of what no joint determines. */
 static void fit_twist(const dmb_sim *sim, const dmb_chain *chain, uint32_t base, const double open[6], const double *x,
                       double z[6])
 {
@@ -228,7 +232,8 @@ static void apply_moves(dmb_sim *sim, int rigid)
     }
 }
 
-/* Levenberg-Marquardt iteration until all joints are closed or the violation stagnates. */
+/* Levenberg-Marquardt iteration until all joints are closed or the violation stagnates. It stagnates if the violation
+ * has not fallen by a tenth in DMB_ASSEMBLY_STALLED iterations. */
 static int32_t iterate_damped(dmb_evaluation *evaluation, int rigid)
 {
     dmb_sim *sim = evaluation->sim;
@@ -266,6 +271,8 @@ static int32_t iterate_newton(dmb_evaluation *evaluation)
 
 enum { BODIES_MOVE, CHAINS_MOVE, NODES_MOVE };
 
+/* Newton first; where it leaves joints open, the damped iteration continues from there. Sparse components have no dense
+ * matrix for the latter. */
 static int32_t move_parts(dmb_evaluation *evaluation, int movers)
 {
     dmb_sim *sim = evaluation->sim;
@@ -346,6 +353,7 @@ static int32_t close_dense(dmb_evaluation *evaluation, int start, int *closed)
     return status;
 }
 
+/* Rows 2 and 3 of the table begin from the described poses, not from those that the row before has left. */
 static int32_t close_from(dmb_evaluation *evaluation, int start, int *closed)
 {
     dmb_sim *sim = evaluation->sim;
@@ -473,6 +481,10 @@ static void keep_coordinates(dmb_sim *sim)
     }
 }
 
+/* Order: Jacobians of callers' constraints against differences; units of columns; states of joints; poses; speeds; then
+ * constants of the closed scene (revolutions, offsets of drives and couplings). During assembly given initial
+ * coordinates are equations too, couplings and joint drives are not, since their constants are those of the closed
+ * pose. The trial becomes the accepted state at the end: a failure changes no pose. */
 int32_t dmb_assemble(dmb_sim *sim)
 {
     dmb_evaluation evaluation;

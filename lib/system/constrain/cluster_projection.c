@@ -36,7 +36,7 @@ static int32_t factor_gram(dmb_sim *sim)
 }
 
 /* Shortest change x with B x = d, d by constraint row, into cluster_move. That of sparse components is already
- * computed. */
+ * computed. By eq:joints.projection with the weights cluster_metric. */
 static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -158,7 +158,9 @@ int32_t dmb_clusters_correct(dmb_evaluation *evaluation)
                : DMB_OK;
 }
 
-/* Newton on C = 0 until rounding; motion 1: within a step. */
+/* Newton on C = 0 until rounding; motion 1: within a step. Ends at rounding, or where the violation no longer halves
+ * below DMB_UNSETTLED: near-singular rows amplify the rounding of positions. Each move changes poses, hence the rows
+ * are evaluated again after it; the last evaluation belongs to the result. */
 static int32_t settle_poses(dmb_evaluation *evaluation, int32_t motion)
 {
     dmb_sim *sim = evaluation->sim;
@@ -230,6 +232,10 @@ static void drop_near_redundant(dmb_sim *sim)
     if (sim->scene->sparse_count && sim->reduced_mode->near_redundant) (void)dmb_sparse_factor(sim, 1);
 }
 
+/* In a step (from_raw) velocity and accelerations start from the raw motion, which Newton corrects and which no
+ * projection of speeds or accelerations has changed. Near-redundant rows are left out of speeds and accelerations, not
+ * of poses. After the speeds the rows are evaluated again, because convective terms depend on them; a rotor's
+ * accelerations follow its speed (dmb_rotors_follow). */
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw)
 {
     dmb_sim *sim = evaluation->sim;

@@ -1,3 +1,11 @@
+/* Rank of the equations by LAPACK for the model check, compared with the choice of the partition. The sim is only read:
+ * a copy of its struct has own arrays where rows and matrices are written, and reads pose and motion of the accepted
+ * state in place.
+ *
+ *     component   rank                                      redundant rows
+ *     ---------   ---------------------------------------   ---------------------------------------------------------
+ *     dense       singular values (dmb_rank_of_rows)        those of the partition if both ranks agree, else LAPACK's
+ *     large       that of its choice of rows                those of the choice */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -54,6 +62,8 @@ static void lay_out(dmb_arena *arena, scratch *s)
     s->work = DMB_ARENA_DOUBLES(arena, largest_work(scene));
 }
 
+/* The dense scene, if the sim's has sparse components and a dense twin: all components then have a matrix for LAPACK.
+ */
 static int32_t open_scratch(const dmb_sim *sim, scratch *s, dmb_cluster_rank *rank)
 {
     dmb_arena arena;

@@ -2,7 +2,15 @@
  *
  *     C(q, t) = 0,   B v + rate = 0,   B v' + convective = 0,   B = dC by body-frame motion of the nodes
  *
- * into the constraint_ fields of the sim. Inactive rows are zero, of type DMB_ROW_IDLE. */
+ * into the constraint_ fields of the sim. Inactive rows are zero, of type DMB_ROW_IDLE.
+ *
+ *     owner       rows                                    value              rate            convective
+ *     ---------   -------------------------------------   ----------------   -------------   ----------------------
+ *     joint       of its kind, or six of its lock         eq:joints.rows     0               JV V + J (ad terms)
+ *     coupling    sum of factor times coordinate          less its value     0               sum of the coordinates'
+ *                                                         when closed
+ *     drive       coordinate                              less its target    -target         less the target's rate
+ *     callback    constraint_rows_callback.c */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -19,6 +27,7 @@ static double *jacobian_row(const dmb_sim *sim, const dmb_constraint *constraint
     return sim->constraint_jacobian + constraint->jacobian + (size_t)k * constraint->columns;
 }
 
+/* Rows that do not act keep their place in the memory, so that switching a joint moves no other row. */
 static void idle(dmb_sim *sim, const dmb_constraint *constraint)
 {
     memset(sim->constraint_type + constraint->row, DMB_ROW_IDLE, constraint->rows);
@@ -43,7 +52,8 @@ void dmb_joint_rows_now(const dmb_sim *sim, uint32_t j, const dmb_relative *rela
         dmb_joint_rows_at(joint->kind, joint->length, relative->R, relative->p, relative->V, rows);
 }
 
-/* B v' + (JV V + J convective) = 0 */
+/* B v' + (JV V + J convective) = 0. Lambda_a changes with the motion (eq:joints.relative-motion): `convective` of the
+ * relative motion is -ad_V Lambda_a v_a. */
 static double convective_of(const double J[6], const double JV[6], const dmb_relative *relative)
 {
     return dmb_vec6_dot(JV, relative->V) + dmb_vec6_dot(J, relative->convective);
@@ -68,7 +78,8 @@ static void joint_row(dmb_sim *sim, const dmb_constraint *constraint, uint32_t k
     dmb_add_joint_row(sim->scene, constraint, constraint->index, relative, 1.0, J, jacobian_row(sim, constraint, k));
 }
 
-/* During assembly, given initial coordinates are equations too. */
+/* During assembly, given initial coordinates are equations too. They follow the joint's own rows; their rate makes the
+ * speeds of the coordinates those given. */
 static void initial_rows(dmb_evaluation *evaluation, const dmb_constraint *constraint, const dmb_relative *relative,
                          uint32_t k)
 {
@@ -124,7 +135,8 @@ static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j,
 }
 
 /* [rad] Change of RX and RY in the step, with the gradients at its end; for large rotations with those at its start
- * too. */
+ * too. They choose the revolution of the angles that the pose gives, for which the estimate has to be right within half
+ * a turn. */
 static void angle_increments(const dmb_sim *sim, uint32_t j, const dmb_relative *relative,
                              const dmb_joint_coordinates *c, double increment[2])
 {
@@ -155,6 +167,7 @@ static void expect_driven(const dmb_sim *sim, uint32_t j, double expected[2])
     }
 }
 
+/* RX and RY: the angle of the pose on the revolution nearest to the last one plus the increment of the step. */
 void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, const dmb_relative *relative,
                               dmb_joint_coordinates *coordinates)
 {
@@ -192,6 +205,7 @@ static int is_open(const dmb_sim *sim, uint32_t j)
     return sim->joint_state[j] == DMB_JOINT_OPEN;
 }
 
+/* Not during assembly: its constant is the sum in the closed pose (keep_coordinates). */
 static void coupling_row(dmb_evaluation *evaluation, const dmb_constraint *constraint)
 {
     dmb_sim *sim = evaluation->sim;
@@ -202,6 +216,8 @@ static void coupling_row(dmb_evaluation *evaluation, const dmb_constraint *const
     sim->constraint_value[constraint->row] -= sim->constraint_offset[constraint->row];
 }
 
+/* A motion drive: coordinate = its value at time 0 + position of the drive, which is the exact integral of its target.
+ */
 static void drive_row(dmb_evaluation *evaluation, const dmb_constraint *constraint)
 {
     dmb_sim *sim = evaluation->sim;
@@ -285,6 +301,8 @@ static void add_bend(const dmb_hole_bend *bend, const double *f, double W[36])
     }
 }
 
+/* W = sum f_k dJ_k by relative displacements, from the closed forms of the rows of each kind; the maps of both bodies
+ * add the other terms (eq:joints.relative-tangent). */
 static void joint_curvature(const dmb_sim *sim, const dmb_constraint *constraint, const double *f, double *K)
 {
     const uint32_t j = constraint->index;

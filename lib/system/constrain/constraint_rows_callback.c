@@ -1,3 +1,12 @@
+/* Constraints of the caller's functions: rows, convective terms and curvature, by the function where it gives them and
+ * by central differences of fourth order otherwise (table and reasons: constrain.h).
+ *
+ *     quantity          with the function's Jacobian                        without it
+ *     ---------------   -------------------------------------------------   ---------------------------------------
+ *     B                 as given                                            C along each component of each place
+ *     rate              C along time at fixed poses, or b of a nonholonomic constraint (eq:joints.nonholonomic)
+ *     convective        (J v)' along the motion + d(J v)/dt + d2C/dt2       C twice along the motion
+ *     curvature         J^T f along each component                          left out of the tangent */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -180,6 +189,7 @@ static double motion_step(const question *ask, double most)
     return most / fastest;
 }
 
+/* Of a nonholonomic constraint the derivative of A v + b along the motion at constant v is all of it. */
 static int32_t convective_of(const question *ask, double convective[ROWS])
 {
     memset(convective, 0, ROWS * sizeof(double));

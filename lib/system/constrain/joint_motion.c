@@ -1,5 +1,7 @@
 /* Frame b of a joint relative to frame a in a configuration, and the mapping of rows and wrenches to the rows of its
- * nodes. */
+ * nodes. Positions are differences: the vector between the described nodes (`span`) plus both displacements, so that
+ * joints far from the origin keep their digits. Frame a of a joint on the hole is that of the hole at the point closest
+ * to frame b; it moves along with b, which rows and curvature account for (bend). */
 #include "system/constrain/constrain.h"
 
 #include <math.h>
@@ -29,7 +31,9 @@ static void frame_pose(const dmb_scene *scene, const dmb_configuration *c, const
     dmb_vec3_add(x, u, x);
 }
 
-/* Frame of the hole at the point closest to x (world); of a locked joint, at its depth. */
+/* Frame of the hole at the point closest to x (world); of a locked joint, at its depth. The segment found last begins
+ * the search; the trial begins from that of now (dmb_joint_place_begin), so that it does not depend on earlier trials.
+ */
 static void hole_frame(const dmb_scene *scene, const double x[3], double *depth, uint32_t *segment, double R[9],
                        double point[3], dmb_hole_bend *bend)
 {
@@ -50,6 +54,7 @@ static void hole_frame(const dmb_scene *scene, const double x[3], double *depth,
     }
 }
 
+/* Places and twist of frame b in axes of b, relative to a (eq:joints.relative-motion). */
 static void motion(const dmb_scene *scene, const dmb_configuration *c, uint32_t j, double *depth, uint32_t *segment,
                    dmb_relative *relative, dmb_hole_bend *bend)
 {
@@ -151,6 +156,7 @@ static void add_part(const dmb_scene *scene, const dmb_constraint *constraint, u
     dmb_add_node_columns(scene, node, part, row + dmb_constraint_column(constraint, node));
 }
 
+/* J of the relative twist times the maps of both bodies: the row in their body-frame velocities. */
 void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
                        const dmb_relative *relative, double factor, const double J[6], double *row)
 {

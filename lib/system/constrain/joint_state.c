@@ -1,4 +1,13 @@
-/* State of joints: gimbal singularities, revolutions counted, reactions, locks, energy of their laws. */
+/* State of joints: gimbal singularities, revolutions counted, reactions, locks, energy of their laws.
+ *
+ *     check                 when                         fails if
+ *     -------------------   --------------------------   ----------------------------------------------------------
+ *     gimbal singularity    start, end of each step      |RZ| within 0.01 rad of a right angle, of universal joints
+ *                                                        and of joints with anything that acts on an angle
+ *     rim that lies flat    the same                     sine of its angle with the plane <= 1e-3
+ *     gimbal flip           equilibrium found            a universal joint has passed the right angle
+ *
+ * At RZ = 90 degrees RX and RY turn about one axis (eq:joints.coordinates); their gradients grow as 1/cos RZ. */
 #include "system/constrain/constrain.h"
 
 #include <math.h>
@@ -61,7 +70,9 @@ static double chord_distance(const double a[2], const double b[2])
     return sqrt(x * x + y * y);
 }
 
-/* cos RZ of the trial, or its smallest value on the path from now, estimated from the ends of the step. */
+/* cos RZ of the trial, or its smallest value on the path from now, estimated from the ends of the step. n = (R_yy,
+ * R_yz) runs along an arc, whose distance from 0 is cos RZ. For short rotations the chord replaces the arc; of a
+ * rotation above DMB_SHORT_TURN the end alone is checked. */
 static double smallest_cosine(const dmb_sim *sim, uint32_t j, const double R[9], int moving)
 {
     const double here[2] = {R[4], R[5]};
@@ -102,6 +113,7 @@ static int32_t refuse_flat(dmb_sim *sim, uint32_t j, double sine, double time)
     return DMB_ERR_GEOMETRY;
 }
 
+/* Locked and open joints are not checked: they do not use angles. */
 static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -177,6 +189,7 @@ void dmb_joint_set_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *
     sim->trial.joint_turn[2 * j + 1] = c->value[4];
 }
 
+/* Revolutions of RX and RY are memory: the next step continues from the angles stored here. */
 void dmb_joints_follow(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -201,6 +214,7 @@ void dmb_joint_reactions(dmb_evaluation *evaluation)
     }
 }
 
+/* The renewal of the partition is last: multipliers of least norm use the factors of the old one. */
 void dmb_joints_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -220,6 +234,7 @@ void dmb_joint_hold(dmb_sim *sim, uint32_t j)
     dmb_joint_place_hold(sim, j, sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE);
 }
 
+/* A joint that opens or is released from its lock leaves its place on the hole free again. */
 void dmb_joint_set_state(dmb_sim *sim, uint32_t j, int32_t state)
 {
     sim->joint_state[j] = state;

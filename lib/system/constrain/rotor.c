@@ -1,3 +1,13 @@
+/* Steps of rotors in axes that do not spin with them (eq:motion.rotor; symbols and derivation: rotor.h).
+ *
+ *     call                     in terms of rotor.h
+ *     ----------------------   ---------------------------------------------------------------------
+ *     begin                    O, P(h); V0, V0', A0 in the axes reached by P(h); H0 P(h)
+ *     dmb_rotors_predict       generalized-alpha on (V, V', A), then back to v1, v1', a1 (eq:motion.rotor-step)
+ *     dmb_rotors_correct       all rows got beta' dz and gamma' dz: subtracts gamma' ad(O) dz (eq:motion.rotor-tangent)
+ *     dmb_rotors_follow        the same after the projection of the speeds
+ *     dmb_rotors_place         H1 = H0 P(h) exp z
+ *     dmb_rotors_matrix        -gamma' M ad(O), its part of the iteration matrix */
 #include "system/constrain/rotor.h"
 
 #include "element/added_mass.h"
@@ -63,6 +73,7 @@ void dmb_rotors_carry_wrenches(const dmb_sim *sim, double *rows)
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) dmb_rotor_carry_wrench(sim, i, rows + row_of(sim, i));
 }
 
+/* V + O first: v' = V' - ad(O) v needs the full velocity. */
 void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], double acceleration[6],
                      double pseudo_acceleration[6])
 {
@@ -82,6 +93,7 @@ void dmb_rotor_add_travel(const dmb_sim *sim, uint32_t node, double z[6])
     for (int i = 0; i < 6; i++) z[i] += sim->rotor_step[rotor].length * sim->rotor_step[rotor].spin[i];
 }
 
+/* Of a node without a rotor the increment itself. */
 double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -163,6 +175,7 @@ void dmb_rotors_place(dmb_sim *sim)
     }
 }
 
+/* The revolution of the angle is that of the increment and the travel h O of the spin. */
 void dmb_rotors_unwrap(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {

@@ -112,6 +112,7 @@ static void put_row(dmb_sim *sim, const dmb_constraint *c, uint32_t k, const dou
     sim->sparse_length[sim->sparse_row[c->block] + i] = length;
 }
 
+/* Identity in the rows of nodes, B W in those of the chosen multipliers, upper blocks only. */
 static void put_matrix(dmb_sim *sim, const double *weight)
 {
     const dmb_scene *scene = sim->scene;
@@ -153,6 +154,8 @@ static double order_rows(dmb_sim *sim, uint32_t k)
     return sqrt(least);
 }
 
+/* All active rows are entered; elimination keeps those whose squared sine against the earlier ones is above
+ * DMB_SPARSE_RANK. Pivots need no search among blocks, because the matrix is quasi-definite. */
 void dmb_sparse_choose(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -197,6 +200,8 @@ static uint32_t row_of_block(const dmb_scene *scene, uint32_t block)
     return 0;
 }
 
+/* drop_near_redundant: second factorisation in a step that has such rows, for projections of speeds and accelerations.
+ * Places of the rows stay those of the first one; excluded rows get 0. */
 int32_t dmb_sparse_factor(dmb_sim *sim, int drop_near_redundant)
 {
     const dmb_scene *scene = sim->scene;
@@ -238,6 +243,7 @@ void dmb_sparse_project(dmb_sim *sim, const double *d)
     dmb_block_signed_solve(&sim->scene->pattern, &matrix, sim->sparse_vector);
 }
 
+/* The unknowns are x/W: the metric turns them into moves. */
 void dmb_sparse_get(const dmb_sim *sim, uint32_t k, double *x)
 {
     const dmb_scene *scene = sim->scene;
@@ -300,7 +306,7 @@ static void begin_multipliers(dmb_sim *sim)
     }
 }
 
-/* W (residual + B^T f) by nodes into sparse_vector, 0 by rows. */
+/* W (residual + B^T f) by nodes into sparse_vector, 0 by rows. Right-hand side a of the system; d = 0. */
 static void put_residual(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -142,6 +142,9 @@ static void clear_multipliers(dmb_sim *sim)
     }
 }
 
+/* Only if a row is redundant: otherwise multipliers are unique. The matrix of the projections is overwritten, hence
+ * metric = 0, and the sizes of the blocks are those of nodes alone meanwhile. If A^T A + e I cannot be factored, the
+ * multipliers stay as they are, which balance too. */
 void dmb_sparse_least_norm(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

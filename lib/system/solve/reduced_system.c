@@ -7,7 +7,16 @@
  * (eq:joints.reduced-system, eq:joints.saddle), with S the iteration matrix of the nodes (blocks of the
  * block-tridiagonal storage) and of the joints. Sequence: put_nodes, put_constraints, make_null_space, reduce_cluster
  * or border_cluster for each dense component; assemble_off_diagonal between blocks; sparse components by
- * reduced_system_sparse. */
+ * reduced_system_sparse.
+ *
+ *     block                              unknowns y                                     z of its nodes
+ *     --------------------------------   --------------------------------------------   ---------------------------
+ *     dense component, independent       independent coordinates, columns - rank        R y
+ *     dense component, multipliers       all coordinates and pivot multipliers          the first ones
+ *     node of a sparse component         its rows, and multipliers of chosen rows       the first ones
+ *     other node of a jointed chain      its rows                                       y
+ *
+ * Chains without joints are not in this system; they have block-tridiagonal factors of their own (solve.c). */
 #include "system/solve/solve.h"
 
 #include <string.h>
@@ -118,7 +127,9 @@ static void put_nodes(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
     }
 }
 
-/* Terms of joints between their nodes, in solved rows. */
+/* Terms of joints between their nodes, in solved rows. constraint_tangent holds tangents of springs, joints and
+ * callers' forces, and the curvature of the equations: together with the nodes' blocks it is S_c of
+ * eq:joints.reduced-system. */
 static void put_constraints(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
 {
     const dmb_scene *scene = sim->scene;
@@ -163,7 +174,8 @@ static void make_null_space(dmb_sim *sim, uint32_t k)
     }
 }
 
-/* A += G^T X for the dependent rows and X for the independent ones, X = D R. */
+/* A += G^T X for the dependent rows and X for the independent ones, X = D R. R is not formed: rows of independent
+ * columns are unit rows, which are added without multiplication. */
 static void reduce_cluster(dmb_sim *sim, uint32_t k, const double *D, double *A)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -213,6 +225,7 @@ static dmb_block_sparse matrix_of(const dmb_sim *sim)
     return matrix;
 }
 
+/* Sizes change with the rank: a joint that opens or locks needs no other pattern, only other sizes. */
 static void set_sizes(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -351,6 +364,7 @@ static void assemble_node(const dmb_sim *sim, uint32_t node, const double *rows)
     null_space_times(sim, node, rows + scene->layout.row[node], 1, to);
 }
 
+/* z = R y of one node. */
 static void scatter_node(const dmb_sim *sim, uint32_t node, double *rows)
 {
     const dmb_scene *scene = sim->scene;
@@ -366,6 +380,7 @@ static void scatter_node(const dmb_sim *sim, uint32_t node, double *rows)
     }
 }
 
+/* DMB_METHOD_MULTIPLIERS alone: the corrections behind the coordinates. */
 static void move_multipliers(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -384,6 +399,7 @@ void dmb_reduced_expand(const dmb_sim *sim, double *z)
         if (sim->scene->node_block[i] != DMB_NONE) scatter_node(sim, i, z);
 }
 
+/* R^T of the right-hand side, solution by blocks, z = R y; multipliers that are unknowns move with it. */
 void dmb_reduced_solve(dmb_sim *sim, double *z)
 {
     const dmb_scene *scene = sim->scene;

@@ -1,3 +1,5 @@
+/* Sparse components in the reduced system (eq:joints.saddle; form and scaling: solve.h). Rows of multipliers stand
+ * behind those of the node in the block to which their constraint belongs, in the order of sparse_slot. */
 #include "system/solve/solve.h"
 
 #include "system/constrain/constrain.h"
@@ -47,7 +49,8 @@ static double largest_stiffness(const dmb_sim *sim)
     return most > 0.0 ? most : 1.0;
 }
 
-/* Stiffness of the softer node of a constraint: the stiffer one would dominate the pivot. */
+/* Stiffness of the softer node of a constraint: the stiffer one would dominate the pivot. Below 1e-6 of the largest
+ * stiffness it is limited, so that a node without stiffness does not make its rows vanish. */
 static double stiffness_beside(const dmb_sim *sim, const dmb_constraint *c, double largest)
 {
     double least = (double)INFINITY;
@@ -114,6 +117,8 @@ static void hold_row(dmb_sim *sim, const dmb_constraint *c, const double *b, dou
         }
 }
 
+/* Row k is scaled by stiffness over its length in weighted columns: D B W then has entries of the size of the stiffness
+ * beside it. With `hold` B^T B times that stiffness over the squared length is added to S. */
 void dmb_reduced_sparse_put(dmb_sim *sim, int hold)
 {
     const dmb_scene *scene = sim->scene;
@@ -134,6 +139,7 @@ void dmb_reduced_sparse_put(dmb_sim *sim, int hold)
     }
 }
 
+/* The unknown is D^-1 df: its multiplier moves by D times it. */
 void dmb_reduced_sparse_move(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

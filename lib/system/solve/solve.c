@@ -1,3 +1,15 @@
+/* Norm of the residual against its bound, and linear algebra of a Newton iteration.
+ *
+ *     factors (sim->factors)   made by                    solved by                                     used in
+ *     ----------------------   ------------------------   -------------------------------------------   ---------------
+ *     FRESH                    dmb_factor_matrix          inverses of blocks, from both ends            steps
+ *                                                         (eq:integration.elimination)
+ *     REUSED                   dmb_keep_factors, a step   the same, in the frames of that step          steps without
+ *                              of the same length                                                       joints
+ *     LU                       dmb_factor_stiffness       block LU with pivots                          statics, start
+ *     (with joints)            dmb_reduced_factor         reduced system of the jointed chains          all
+ *
+ * A mass matrix is the iteration matrix of an evaluation of inertia alone (make_mass_matrix). */
 #include "system/solve/solve.h"
 
 #include <float.h>
@@ -14,7 +26,8 @@ typedef struct norms {
     double rest, all; /* squares of the residual and of its terms, [N2] */
 } norms;
 
-/* Completes the sums of nodes of one size: translations have weight 1, rotations 1/`arm`. */
+/* Completes the sums of nodes of one size: translations have weight 1, rotations 1/`arm`. The kernels sum DMB_SQUARES
+ * columns side by side; column c holds component c mod size, so that nodes of 2 and of 6 rows share one loop. */
 static void add_components(uint32_t size, double arm, const double *rest, const double *all, norms *n)
 {
     for (uint32_t c = 0; c < DMB_SQUARES; c++) {
@@ -70,6 +83,7 @@ static void squares_of(const dmb_sim *sim, uint32_t row, uint32_t count, uint32_
         }
 }
 
+/* Of one chain: moments are divided by its length, so that a residual is compared with forces of the same part. */
 static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
@@ -101,7 +115,8 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     return n.rest <= part ? DMB_SMALL_PART : 0;
 }
 
-/* [N2] Squared bound of a chain from its initial residual. */
+/* [N2] Squared bound of a chain from its initial residual. share and most are those of eq:integration.stop: a fraction
+ * of the start, but below a fraction of the forces. */
 static double part_of(const dmb_sim *sim, uint32_t c, const dmb_residual_bound *bound, norms n)
 {
     if (!(bound->share > 0.0)) return 0.0;
@@ -114,7 +129,8 @@ static double relative_of(norms n)
     return n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0;
 }
 
-/* The worse of two results of comparisons. */
+/* The worse of two results of comparisons. Order from worst to best: above the bound, a small part of the start, at
+ * rounding, converged. */
 static int32_t worse(int32_t a, int32_t b)
 {
     if (a == 0 || b == 0) return 0;
@@ -122,6 +138,8 @@ static int32_t worse(int32_t a, int32_t b)
     return a == DMB_AT_ROUNDING ? a : b;
 }
 
+/* Every chain must meet its own bound: a light body beside a heavy string is not compared with the string's forces. The
+ * bound returned is that of the chain which exceeds its bound most. */
 dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound)
 {
     dmb_sim *sim = evaluation->sim;
@@ -196,7 +214,8 @@ static void factor_ends(void *work, uint32_t first, uint32_t end)
     }
 }
 
-/* The singular block that a serial factorisation would find first, alternating between both ends. */
+/* The singular block that a serial factorisation would find first, alternating between both ends. The message then
+ * names the same node with and without threads. */
 static int64_t first_singular(const dmb_chain *chain, const int64_t at[2])
 {
     const uint32_t last = chain->first + chain->count - 1, extra = chain->count % 2 == 0;
@@ -204,6 +223,7 @@ static int64_t first_singular(const dmb_chain *chain, const int64_t at[2])
     return at[0] - chain->first <= (int64_t)last - at[1] + extra ? at[0] : at[1];
 }
 
+/* parts: the ends have been eliminated as chunks, the middle block is left (part 2). */
 static int64_t factor_chain(const dmb_sim *sim, dmb_block_matrix *matrix, uint32_t c, int parts)
 {
     const dmb_scene *scene = sim->scene;
@@ -247,6 +267,8 @@ static void solve_chain(const dmb_scene *scene, const dmb_block_matrix *factors,
         scene->kernels->solve(&scene->layout, factors, chain->first, chain->count, z);
 }
 
+/* With threads: both ends towards the middle, the middle, then away from it; without, the same operations in one call.
+ * The bits are equal, because each end has its own rows. */
 static void solve_chains(const dmb_sim *sim, const dmb_block_matrix *factors, double *z)
 {
     const uint32_t chains = sim->scene->chain_count;
@@ -268,6 +290,8 @@ int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method)
     return scene->cluster_count ? dmb_reduced_factor(sim, method, NULL) : -1;
 }
 
+/* LU with pivots inside the blocks: without mass in the diagonal its blocks may be nearly singular, and the weakest
+ * pivot shows motion that nothing constrains. */
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
 {
     const dmb_scene *scene = sim->scene;
@@ -296,7 +320,8 @@ static void clear_stiffness(void *work, uint32_t first, uint32_t end)
     memset(sim->stiffness_diagonal + diag[first], 0, (diag[end] - diag[first]) * sizeof(double));
 }
 
-/* Mass matrix: the iteration matrix without stiffness. */
+/* Mass matrix: the iteration matrix without stiffness. Elements observe inertia_only; the tangents that other forces
+ * have added to the diagonal blocks are cleared. */
 static int32_t make_mass_matrix(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -343,6 +368,7 @@ static void solve_stiffness(const dmb_scene *scene, const dmb_block_matrix *fact
             dmb_block_solve(&scene->layout, factors, scene->chains[c].first, scene->chains[c].count, z);
 }
 
+/* Prescribed rows of the right-hand side are 0 (their residual is a reaction), so that z is 0 there. */
 void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
 {
     const dmb_scene *scene = sim->scene;
@@ -372,6 +398,7 @@ static void swap_blocks(double **a, double **b)
     *b = other;
 }
 
+/* Pointers are exchanged, no numbers. */
 void dmb_factors_swap(dmb_sim *sim, dmb_factor_set *with)
 {
     uint8_t *const pivot = sim->pivot;
@@ -398,6 +425,7 @@ void dmb_solve_refined(dmb_sim *sim, const dmb_block_matrix *matrix, double *pro
     for (uint32_t i = 0; i < rows; i++) sim->correction[i] += product[i];
 }
 
+/* The factors change place with those kept before, whose memory the next matrix overwrites. */
 void dmb_keep_factors(dmb_sim *sim, const double *quaternion)
 {
     swap_blocks(&sim->stiffness_diagonal, &sim->reused_diagonal);
@@ -406,6 +434,8 @@ void dmb_keep_factors(dmb_sim *sim, const double *quaternion)
     if (sim->scene->site_count) memcpy(sim->reused_quaternion, quaternion, 4 * sim->scene->node_count * sizeof(double));
 }
 
+/* Factors are saved and hashed with the state: without factors the memory is zero, so that equal states have equal
+ * bytes. */
 void dmb_forget_factors(dmb_sim *sim)
 {
     const dmb_block_layout *layout = &sim->scene->layout;
@@ -444,6 +474,7 @@ static void twist_rows(const dmb_sim *sim, const double *from, const double *to,
     dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, twist_nodes, &work);
 }
 
+/* z is in the frames of the trial, the factors in those of the step that made them. */
 void dmb_solve_reused(const dmb_sim *sim, double *z)
 {
     const dmb_block_matrix factors = {sim->reused_diagonal, sim->reused_lower, sim->reused_upper, NULL};
