@@ -1,3 +1,5 @@
+/* The SE(3) element one at a time (equations in element/beam_math.h), and its sections (eq:beam.section-pose): the same
+ * formulas as the lanes of the kernels, for queries, compilation and forces at points. */
 #include "element/beam.h"
 
 #include <string.h>
@@ -37,6 +39,7 @@ void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, 
     dmb_beam_stiffness_times(type, e, stress);
 }
 
+/* e . K_x e of the off-diagonal stiffness K_x of a bent unstressed shape; 0 for a straight one. */
 double dmb_beam_cross_energy(const dmb_element_type *type, const double e[6])
 {
     double s[6] = {0.0};
@@ -51,6 +54,7 @@ void dmb_beam_stiffness_times(const dmb_element_type *type, const double e[6], d
     if (dmb_element_is_curved(type)) dmb_curved_add_cross(type->curved.cross, e, stress);
 }
 
+/* Axial strain with the coupling of eq:beam.axial-shear, times the length. */
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6])
 {
     double x[3];
@@ -76,6 +80,8 @@ void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, d
     if (bending) dmb_section_shape_of(&c, x, shape);
 }
 
+/* d = log of the pose of end B as seen from end A, both moved from their nodes by the rigid arms
+ * (eq:kinematics.arm). */
 void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
                       double d[6])
 {

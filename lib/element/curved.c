@@ -1,3 +1,5 @@
+/* Bent elements one at a time: the constant mass of the straight element plus the terms that follow its bend
+ * (element/curved_mass.h, eq:curved.kinetic-energy). */
 #include "element/curved.h"
 
 #include <string.h>

@@ -1,3 +1,5 @@
+/* Table of the kernels compiled into the build, and the choice of the widest one that the processor runs. All widths
+ * return the same bits, so that the choice affects speed only. */
 #include <stddef.h>
 
 #include "base/build.h"

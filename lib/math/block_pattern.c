@@ -226,6 +226,7 @@ static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
     return true;
 }
 
+/* Nothing is returned unless all of it fits: counts are summed in 64 bits or doubles before memory is reserved. */
 static int32_t make(const dmb_allocator *allocator, analysis *s, const uint32_t *capacity, uint32_t edge_count,
                     const dmb_block_edge *edges, dmb_block_pattern *p)
 {
@@ -262,6 +263,7 @@ void dmb_block_pattern_release(dmb_block_pattern *pattern, const dmb_allocator *
     memset(pattern, 0, sizeof *pattern);
 }
 
+/* Later blocks of a column are sorted: bisection. */
 uint32_t dmb_block_pattern_entry(const dmb_block_pattern *pattern, uint32_t low, uint32_t high)
 {
     uint32_t begin = pattern->column[low], end = pattern->column[low + 1];

@@ -2,7 +2,11 @@
  *
  *     u_pp = sqrt(s a_pp),   u_pj = s a_pj/u_pp,   a_ij -= s u_pi u_pj   (i, j > p)
  *
- * The diagonal stores 1/u_pp. An excluded row is 0, including its diagonal. */
+ * The diagonal stores 1/u_pp. An excluded row is 0, including its diagonal. The sign s of each pivot is prescribed: +
+ * for the first `plus` rows of a block (coordinates), - for the others (equations), as for the quasi-definite matrix of
+ * eq:joints.quasi-definite, whose elimination needs no exchanges for stability. A row of an equation whose pivot is
+ * small against its length is redundant: `factor` excludes rows below `weak`, `choose` also finds which ones, by taking
+ * the largest remainder first. */
 #include "math/block_signed.h"
 
 #include <float.h>

@@ -228,6 +228,7 @@ void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_comple
 
 /* ---- Chains ------------------------------------------------------------------------------------------------------ */
 
+/* Chains: the same elimination from block to block, of which each has one later neighbour. */
 int64_t dmb_complex_block_factor(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
                                  uint32_t count)
 {

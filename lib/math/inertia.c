@@ -173,6 +173,8 @@ DMB_BLOCK_KERNEL void update_next(int n, int m, int count, work_row *a, double *
 }
 
 /* From row k on, with pivots of two rows; rows before it are eliminated. */
+/* The slow way for blocks that need pivots of two rows: the front is copied into one full matrix and eliminated by
+ * `eliminate`; the rows eliminated before keep their pivots. */
 static uint32_t eliminate_from(int k, int n, int m, block_front *b)
 {
     double all[4 * DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX] = {0.0};
@@ -231,6 +233,7 @@ static void add_raise(uint32_t n, const dmb_block_raise *raise, const double *D,
     }
 }
 
+/* D_i+1 is averaged and raised when it enters the front, so that K itself stays as it is. */
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
                             const double *upper, const dmb_block_raise *raise, uint32_t first, uint32_t count)
 {
@@ -253,6 +256,8 @@ uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagon
     return negative;
 }
 
+/* The block D_kk that elimination left is rebuilt from its factors; by Haynsworth's formula the counts of these blocks
+ * add up (eq:signs.inertia). */
 uint32_t dmb_block_sparse_negative(const dmb_block_pattern *pattern, const dmb_block_sparse *factored, double *room)
 {
     double small[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];

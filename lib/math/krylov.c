@@ -1,3 +1,14 @@
+/* Search for the eigenvalues of largest modulus (krylov.h). One turn of `search`:
+ *
+ *     extend    each vector is multiplied and orthogonalised, which adds a column of H and a vector
+ *     project   eigenvalues of the projection H; the residual of a pair is the rows of H below the square, times its
+ *               vector
+ *     done      all requested values have converged, and
+ *                 counted            after one more extension, for vectors as accurate as after a confirmation
+ *                 not counted        again after a random vector and an extension: a missed value would appear
+ *                 `enough`           so many of them lie beyond the bounds
+ *     end       the space is complete: its values are exact
+ *               the limit of vectors is reached: DMB_ERR_NO_CONVERGENCE, or the values as they are (`partly`) */
 #include "math/krylov.h"
 
 #include <math.h>

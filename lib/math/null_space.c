@@ -1,8 +1,12 @@
+/* Null space of a square matrix by QR factors: rows are accumulated by Givens rotations (dmb_rotate_in), and the
+ * triangle is made rank-revealing by Householder reflections with column pivoting. With R = [R1 R2] after the pivoting,
+ * null vectors are (-R1^-1 R2 e_i; e_i), in the order of the pivoting. */
 #include "math/null_space.h"
 
 #include <math.h>
 #include <string.h>
 
+/* Rotates a new row into the triangle R, so that R^T R grows by row^T row; entries before `from` are 0. */
 void dmb_rotate_in(size_t n, size_t from, double *R, double *row)
 {
     for (size_t k = from; k < n; k++) {
@@ -52,6 +56,7 @@ static void reflect(size_t n, size_t k, double norm, double *A, double *v)
         for (size_t j = k; j < n; j++) A[n * i + j] -= 2.0 / square * v[i] * products[j];
 }
 
+/* Returns the rank: the number of columns whose remainder exceeds the tolerance. */
 size_t dmb_triangulate(size_t n, double tolerance, double *A, uint32_t *order, double *v)
 {
     for (size_t k = 0; k < n; k++) order[k] = (uint32_t)k;

@@ -160,6 +160,8 @@ void dmb_fatigue_destroy(dmb_fatigue **fatigue)
 
 /* ---- Damage ------------------------------------------------------------------------------------------------------ */
 
+/* Damage of one cycle (eq:fatigue.damage): amplitude corrected for a tensile mean stress by Goodman's rule; 0 up to the
+ * endurance limit, infinite if the mean stress reaches the tensile strength. */
 static double damage_of(const dmb_fatigue_options *options, double low, double high)
 {
     const double mean = 0.5 * (low + high);
@@ -195,6 +197,8 @@ static void count_cycle(void *context, const dmb_turn *low, const dmb_turn *high
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
+/* Level of the stress for counting, and 1 if it is beyond the range of levels. The value itself is kept, so that only
+ * the order of turning points depends on levels. */
 static int read_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double stress)
 {
     const double classes = fatigue->options.classes;
@@ -279,6 +283,7 @@ static dmb_fatigue_counter whole(const dmb_fatigue *fatigue, uint32_t place, uin
  * rounding. */
 #define DMB_DAMAGES_ALIKE 1e-9
 
+/* Points of equal damage differ by rounding: then the one with the larger range is worse. */
 static int is_worse(const dmb_fatigue_counter *a, const dmb_fatigue_counter *b)
 {
     if (a->damage > b->damage * (1.0 + DMB_DAMAGES_ALIKE)) return 1;

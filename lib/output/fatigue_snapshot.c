@@ -23,6 +23,7 @@ static size_t counters_of(const dmb_fatigue *fatigue)
     return (size_t)fatigue->place_count * fatigue->options.points;
 }
 
+/* Histograms and turning points follow each other in the block and are copied in one piece. */
 static size_t array_bytes(const dmb_fatigue *fatigue)
 {
     const size_t classes = fatigue->options.classes;

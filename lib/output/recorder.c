@@ -60,6 +60,8 @@ static double *row_of(const dmb_recorder *r, uint64_t row)
     return r->table + (size_t)row * (1u + r->output_count);
 }
 
+/* Samples are due at multiples of the interval since the first row: the first step that reaches or passes one is
+ * recorded, so that late samples do not shift later ones. */
 int dmb_sample_is_due(double interval, double first, double last, double time)
 {
     if (!(interval > 0.0)) return 1;

@@ -86,6 +86,8 @@ void dmb_vtk_end_array(dmb_text_file *file)
     dmb_vtk_close_tag(file, "DataArray");
 }
 
+/* Arrays are visited twice: a first time to look for values that are not finite, which ascii arrays of VTK cannot have.
+ * Such an array is then written in base 64. */
 void dmb_vtk_look(dmb_text_file *file)
 {
     file->looking = 1;

@@ -237,6 +237,8 @@ int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
 
+/* Without any time (a single sample) mean and root mean square are that sample. `index` is the stick-slip severity of
+ * eq:drilling.window. */
 static void set_means(const slot_sum *total, double last, dmb_window_result *r)
 {
     const double range = r->maximum - r->minimum;
