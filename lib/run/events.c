@@ -1,8 +1,20 @@
-/* Events: stops at crossings of levels by outputs. A crossing is detected at the end of the step that contains it; the
- * step is reverted and repeated with shorter lengths until the crossing is bracketed within its tolerance. Of several
- * crossings in a step the first is located: each of them gives an estimate by false position (Illinois: Dowell,
- * Jarratt, BIT 11, 1971), and the smallest is tried; if two tries have not halved the bracket, its midpoint is tried.
- */
+/* Events: stops at crossings of levels by outputs. A crossing is detected at the end of the step that contains it.
+ *
+ *     call           after the step with a crossing                            time of the crossing
+ *     ------------   -------------------------------------------------------   ----------------------------------------
+ *     to a time      reverted and repeated with shorter lengths until the      end of the step
+ *                    crossing is bracketed within its tolerance
+ *     equal steps    ends as it is                                             parabola through the ends of two steps
+ *
+ * Of several crossings in a step the first is located: each of them gives an estimate by false position (Illinois:
+ * Dowell, Jarratt, BIT 11, 1971), and the smallest is tried; if two tries have not halved the bracket, its midpoint is
+ * tried.
+ *
+ * State of an output that is held `hold` seconds (event_since):
+ *
+ *     NaN          not beyond its level
+ *     time         beyond since that crossing; reported when `hold` has passed
+ *     infinite     reported, or beyond when the call began: counts again after it has returned */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -106,6 +118,8 @@ typedef struct parabola {
     double gap, length;
 } parabola;
 
+/* Second divided difference of the output over the last two steps. Where the step before has not ended in the present
+ * output and time, for example because an input was set between, the chord alone is used. */
 static parabola parabola_of(const double past[DMB_PAST_SIZE], double before, double after, double from, double to)
 {
     const double sign = after > 0.0 || before < 0.0 ? 1.0 : -1.0, earlier = from - past[DMB_PAST_TIME];

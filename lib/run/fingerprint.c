@@ -1,4 +1,10 @@
-/* Fingerprints of scenes and states by FNV-1a with 64 bits (Fowler, Noll, Vo), which detects mistakes, not forgery. */
+/* Fingerprint of a scene by FNV-1a with 64 bits (Fowler, Noll, Vo), which detects mistakes, not forgery.
+ *
+ * Its purpose is to refuse a snapshot of another model. Hashed are the numbers that steps read, in the order of the
+ * arrays, so the same description compiled in another process has the same value. Not hashed are addresses and stamps,
+ * names, and the content of callbacks, of which only the declared numbers are known: whoever restores has to give the
+ * same functions. Numbers of parts come first, so that two lists of different lengths cannot be read as each other's.
+ */
 #include "run/run.h"
 
 /* Hashes member by member, without padding and pointers. */

@@ -1,4 +1,16 @@
-/* Inputs that the caller sets between steps: a constant that replaces a drive's time function, the state of a joint. */
+/* Inputs that the caller sets between steps. All or none of a call:
+ *
+ *     check      each id and value; nothing is changed by a refusal
+ *     keep       present values and starts of transitions; with stuck places the whole state
+ *     assign     new values; a transition starts at the present value and rate (eq:drive.reference)
+ *     update     own scene, stuck places
+ *     check      limits of drives, which two inputs may have set
+ *     jump       consistent accelerations (dmb_system_jump)
+ *     record     energy of released stuck places and of changed weight, factors, log
+ *
+ * A failure of the last check or of the jump puts everything back. Forces jump with inputs. Without consistent
+ * accelerations the a of generalized-alpha would belong to the old forces, and the steps after it would be of first
+ * order only. */
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +35,7 @@ static int32_t refuse(dmb_sim *sim, int32_t status, const char *why)
     return status;
 }
 
-/* The force of the drive jumps: without consistent accelerations, later steps would be of first order only. */
+/* A value equal to the present one does nothing: setting it in every step costs no jump. */
 static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
 {
     const double before = sim->drive_input[index];
@@ -48,6 +60,8 @@ static int32_t refuse_input(dmb_sim *sim, uint32_t drive)
     return DMB_OK;
 }
 
+/* A motion drive is refused: its speed would jump. A drive whose set point is an input takes values by
+ * dmb_sim_set_input only. */
 static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
 {
     const uint32_t index = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
@@ -192,6 +206,7 @@ static int32_t check_limits(dmb_sim *sim)
 
 /* ---- Setting ----------------------------------------------------------------------------------------------------- */
 
+/* Input values and starts of transitions, for put_back. */
 static void keep(dmb_sim *sim)
 {
     const size_t count = sim->scene->input_count;
@@ -267,7 +282,7 @@ static int moves_weight(const dmb_sim *sim)
     return sim->scene->has_density_input && sim->options.energy_ledger;
 }
 
-/* Records what has changed, each once. */
+/* Records what has changed, each once. A full log is a note, not a failure: values are set all the same. */
 static int32_t note(dmb_sim *sim)
 {
     dmb_input_log *log = &sim->input_log;
@@ -285,6 +300,9 @@ static int32_t note(dmb_sim *sim)
     return DMB_OK;
 }
 
+/* Kept factors are of the old gains, damping and weights, but not of time functions, which change the residual alone.
+ * With an input of density the potential energy changes without a force doing work: the ledger gets the difference as a
+ * change. */
 static int32_t apply(dmb_sim *sim, const settings *given)
 {
     const double weight = moves_weight(sim) ? dmb_gravity_energy(sim->scene, &sim->now) : 0.0;
@@ -378,6 +396,8 @@ static int32_t due(dmb_sim *sim, const dmb_input_record *records, uint32_t count
     return DMB_OK;
 }
 
+/* Records of one call are set by one call, since their values may be valid together only. Calls due are set in their
+ * order, up to the time of the sim. */
 static int32_t replay(dmb_sim *sim, const dmb_input_record *records, uint32_t count, uint32_t *next)
 {
     if (next == NULL || (count > 0 && records == NULL)) return DMB_ERR_NULL;

@@ -124,7 +124,17 @@ static void release_drives(dmb_sim *sim)
     for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
 }
 
-/* Creates the sim in a block at time 0. The reference to the model, taken before, becomes the sim's. */
+/* Creates the sim in a block at time 0. The reference to the model, taken before, becomes the sim's. The order:
+ *
+ *     carve        zeroed block; stamp of the sim in the upper half of `calls`
+ *     inputs       drives by time functions, empty delay lines, own scene with initial values
+ *     start        joints closed, speeds and accelerations consistent (dmb_system_start)
+ *     actuators    delay lines are filled with the first command, as if it had always been given
+ *     magic        from here on the sim is a live handle
+ *     events       their outputs are asked as by queries, which take live handles only
+ *
+ * A failure goes to the model and to the log, since no sim is left to ask, and gives the block and the reference back.
+ */
 static int32_t begin(const creation *c, dmb_model *model, void *block, size_t size, int32_t owns_memory, dmb_sim **out)
 {
     dmb_sim *sim = dmb_sim_carve(model->scene, block, size);

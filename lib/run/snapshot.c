@@ -1,3 +1,17 @@
+/* Snapshots: bytes of the state behind a header, without gaps.
+ *
+ *     header | now | memory | factors
+ *
+ * A snapshot is untrusted input, and its checksum can be forged. It is restored in this order, so that no index is used
+ * before it is checked, and a refusal leaves the sim as it was:
+ *
+ *     header       mark, version, model, size, options, length of the bytes, checksum
+ *     fields       every index, count and choice by the scene, every number finite, before anything is written
+ *     back up      now and memory of the sim
+ *     read         now and memory
+ *     relations    between fields (run/snapshot_relations); a refusal restores the backup
+ *     factors      read last, since the backup has none
+ *     own scene    updated by the values of inputs */
 #include "run/run.h"
 
 #include <math.h>

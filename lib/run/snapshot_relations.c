@@ -1,22 +1,23 @@
 /* Relations between the fields of a state: values that are each in their range (run/snapshot.c) may still contradict
- * each other. Refused is what later calls take for granted: rotations that are rotations, orders in time, marks that
- * say the same thing twice, rows that are held, stand still and are where they are described, coordinates that may
- * depend on others.
+ * each other. Required is what later calls rely on: rotations that are orthogonal, times in order, marks that agree
+ * with the setting they repeat, constrained rows at rest and at their described place, dependent coordinates that are
+ * free.
  *
- * Not compared, for any values of these are harmless: they are found anew by the next step, which converges or is
- * refused, or they are told and nothing else (tests/fuzz/test_forged_relations.c).
- * - Hints where a search begins, and what is found by it: segments and depths of sites, joints and bits.
- * - Contacts: penetration, speeds, bristles and whether they stick. A contact that is told closed and is open by its
- *   pose has no force; the step finds all of them from the pose.
- * - Supports of a state that is told to be carried from another model, where they may stand anywhere: any state of this
- *   model's that a transfer might have led to.
- * - Poses, speeds and offsets that do not fit the joints: the step projects them or is refused. Nor do multipliers and
- *   turns have to fit: the former are solved for, of the latter whole revolutions are kept.
- * - A choice of dependent coordinates whose matrix is singular: the step says so. One that leaves equations out is made
- *   anew, or they are found violated.
- * - Kept factors of another matrix: a correction by them leaves held rows alone and has to lower the true residual, or
- *   new ones are made.
- * - Rock, loads, drives, actuators, energies, powers and statistics: any finite history is one that might have been. */
+ * Not compared, because any value is harmless: the next step computes it again and converges or is refused, or it is
+ * reported only (tests/fuzz/test_forged_relations.c):
+ *
+ *     segments, depths          starting points of searches and their results
+ *     contacts                  penetration, speeds, bristles, whether they stick. A contact stored as closed and open
+ *                               by its pose has no force; the step evaluates all of them from the pose
+ *     supports                  of a state that counts as transferred from another model, where they may be anywhere:
+ *                               any such state could be the result of a transfer
+ *     poses, speeds, offsets    that violate the joints: the step projects them or is refused. Multipliers are solved
+ *                               for; of turns, whole revolutions are kept
+ *     dependent coordinates     with a singular matrix: the step fails with a message. A choice that leaves equations
+ *                               out is replaced, or the equations are found violated
+ *     kept factors              of another matrix: a correction by them does not move constrained rows and has to lower
+ *                               the true residual, or new factors are computed
+ *     rock, loads, drives, actuators, energies, powers, statistics: any finite history is possible */
 #include "run/run.h"
 
 #include <float.h>

@@ -1,4 +1,24 @@
-/* Transfer of the state to a sim of another model: pipes are added or removed at the rig end of a string. */
+/* Transfer of the state to a sim of another model: pipes are added or removed at the rig end of a string. Poses and
+ * speeds in the world are kept; what is stored relative to the description is converted.
+ *
+ *     compare       both models (state_transfer_check); nothing is changed by a refusal
+ *     back up       from here on a failure restores the state and the own scene
+ *     counters      clock, statistics
+ *     drives        memory, inputs, events; own scene
+ *     hole          widening by cutters, interpolated between stations
+ *     nodes         from the far end (state_transfer_nodes)
+ *     stuck         anchors; the same point of the string is required
+ *     contacts      by place on the string (state_transfer_sites)
+ *     joints        turns, states, locks, multipliers
+ *     bits          rock relative to the new description; needs the poses
+ *     check         closed joints at the new poses
+ *     restart       velocities projected, accelerations and reactions (dmb_system_restart)
+ *     contacts      once more: age and bristles, which the evaluation of the restart has overwritten
+ *     bounces       mean forces under way
+ *     ledger        energy at the start, by the energy now
+ *
+ * The second pass over contacts and the bounces come after the restart, which starts both anew. Kept factors are
+ * dropped at the end. */
 #include "run/run.h"
 
 #include <math.h>
@@ -282,6 +302,7 @@ static void transfer_ledger(dmb_sim *sim, const dmb_sim *from)
     sim->ledger->start = stored(sim) - gained;
 }
 
+/* The order is that of the table above. */
 static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
 {
     dmb_evaluation evaluation;

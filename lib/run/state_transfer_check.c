@@ -1,4 +1,15 @@
-/* Comparison of two scenes that may differ in pipes at the rig ends of their strings only. */
+/* Comparison of two models that may differ in pipes at the rig ends of their strings only.
+ *
+ * Compared is what the transferred numbers mean: kinds and order of parts (an array of one sim is copied to the other),
+ * the pipes both have, the hole's axis (depths and segments along it), names and bounds of inputs. Not compared is what
+ * the next evaluation reads from the new model anyway: numbers in laws of joints, drives and the wall, levels of
+ * events, described places. Numbers of parts come first and features last, since differences in parts give clearer
+ * messages.
+ *
+ * Pipes are counted from the far end, k = 0 being the last one:
+ *
+ *     to      [ added pipes ][ n-1 ... 1 0 ]
+ *     from                   [ n-1 ... 1 0 ] */
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,12 @@
-/* Transfer of nodes. The world pose of a matched node is preserved; stored displacements are relative to the described
- * pose, which differs. Described distances between nodes are exact, so shifts are summed along the string from its far
- * end: strains keep their accuracy at any distance from the origin. */
+/* Transfer of nodes. The world pose of a matched node is kept; displacements u are stored relative to the described
+ * position x0, which differs between the scenes, x = x0 + u. Taken from positions, the shift x0 - x0' of each node
+ * would have the rounding of its distance from the origin, which over an element is a strain. Described distances
+ * between neighbours (`element_span`) are exact, so the shift is carried from the far end from node to node by their
+ * differences:
+ *
+ *     (u' - u)_a = (u' - u)_b + (span' - span) + (offset_a - offset_b),  from x_b - x_a = span + u_b - u_a
+ *
+ * Added nodes are appended at the rig end as one rigid body with the first matched node, without strain. */
 #include <math.h>
 #include <string.h>
 
@@ -217,6 +223,7 @@ static void add_node(dmb_sim *sim, uint32_t a)
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */
 
+/* Matched nodes from the far end on, then added ones towards the rig. */
 static int32_t transfer_string(dmb_sim *sim, const dmb_sim *from, uint32_t string)
 {
     const dmb_common_string common = dmb_common_string_of(sim->scene, from->scene, string);

@@ -1,5 +1,7 @@
-/* Transfer of the memory of contact points. A point of one scene may have no counterpart in the other: a supported rig
- * end has no wall contact. */
+/* Transfer of the memory of contact points. Points are matched by node and place along body x; both scenes have them in
+ * the order of their strings, so one pass over both suffices. A point without a counterpart starts open, as at time 0:
+ * one on added pipe, one that came free where a support was (a supported rig end has no wall contact), one of a body
+ * that moved. It has no tracked depth yet and is placed last, by the advance of the next point of its chain. */
 #include <math.h>
 #include <string.h>
 

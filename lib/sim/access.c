@@ -1,4 +1,12 @@
-/* One call at a time: permitted calls of a caller's function on the sim that calls it. */
+/* Calls on a sim: one at a time, with the reads that a caller's function may make meanwhile.
+ *
+ *     state of the sim       its functions may            in
+ *     --------------------   --------------------------   --------------------------------------------------------
+ *     DMB_BUSY_NOT           call anything
+ *     DMB_BUSY_READABLE      query (dmb_sim_check)        steps and analyses: the accepted state is complete
+ *     DMB_BUSY_CHANGING      call nothing on it           inputs, restore, statics; in steps the solution after a jump
+ *
+ * A call within a call that may change the sim fails with DMB_ERR_ORDER, and the outer one goes on. */
 #include "sim/access.h"
 
 #include <math.h>
@@ -20,7 +28,8 @@ void dmb_sim_refuse_re_entry(dmb_sim *sim)
                     sim->clock->time);
 }
 
-/* Failure of a call; inside another call of the library, that one reports it. */
+/* Failure of a call. Two cases report nothing here, because the outer call reports for them: a call that is part of
+ * another one (dmb_sim_hand_on), and one on a copy for an analysis, whose progress is that of the original sim. */
 int32_t dmb_sim_fail(const dmb_sim *sim, int32_t status, const char *call, const char *text)
 {
     if (sim == NULL) return dmb_failure(NULL, NULL, status, call, text);
@@ -60,7 +69,10 @@ int32_t dmb_sim_occupy(const dmb_sim *sim)
     return status;
 }
 
-/* A cancellation replaces whatever failure it caused. */
+/* A cancellation replaces whatever failure it caused. A failure of a callback has a message of its own where the place
+ * is known; the general one is for the others. `calls` counts up twice per call, at its start and at its end: texts of
+ * failures are kept by it (dmb_failure_text), so that the message of an earlier call, or of one that a callback made,
+ * is not read as that of the last one. */
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
@@ -80,6 +92,8 @@ int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
     return dmb_sim_fail(sim, DMB_ERR_CANCELLED, "sim", sim->message.text);
 }
 
+/* An analysis calls public functions on its own sim. Within them the sim is free, failures are left to the outer call,
+ * and progress 0 to 1 of the inner call counts from `from` to `to` of the outer one. */
 void dmb_sim_hand_on(dmb_sim *sim, double from, double to)
 {
     sim->busy = DMB_BUSY_NOT;
@@ -106,6 +120,7 @@ void dmb_progress_begin(dmb_sim *sim)
     sim->progress->cancelled = 0;
 }
 
+/* Progress never goes back: an inner call that starts over does not undo what has been reported. */
 void dmb_progress_at(const dmb_sim *sim, double fraction)
 {
     dmb_progress *progress = sim->progress;

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-/* First item of chunk `part` of a run. */
+/* First item of chunk `part` of a run. The run has `units` of `grain` items; chunk `part` gets units part / parts ..
+ * (part + 1) / parts of them, so chunks start at multiples of the grain and differ by one unit at most. */
 static uint32_t begin_of(const dmb_chunks *parts, uint32_t part)
 {
     const uint32_t units = (parts->count - 1) / parts->grain + 1;
@@ -10,8 +11,13 @@ static uint32_t begin_of(const dmb_chunks *parts, uint32_t part)
     return begin < parts->count ? (uint32_t)begin : parts->count;
 }
 
-/* Entry point of the caller's threads. Each chunk has a mark, so that none is run twice; after the run all marks are
- * cleared. */
+/* Entry point of the caller's threads, for chunk `part`:
+ *
+ *     DUE -> BEGUN -> DONE
+ *
+ * By the marks no chunk is computed twice (the second call returns at once), and one that was left out is found (fewer
+ * DONE than chunks, dmb_chunks_run). Each is written by the thread of its chunk alone. Between runs `parts` is 0: a
+ * thread that calls late finds no chunk. */
 static void run_part(void *work, uint32_t part)
 {
     dmb_chunks *parts = work;
@@ -36,7 +42,8 @@ int32_t dmb_chunks_close(dmb_sim *sim)
     return sim->chunks->failed ? DMB_ERR_CALLBACK : DMB_OK;
 }
 
-/* After a failure the remaining work of the step is done here, without the caller's function. */
+/* After a failure all chunks of later runs are computed here, in one piece. The step that is under way is rejected at
+ * its end (dmb_chunks_close), so the chunks that are missing do no harm; until then, its loops must still return. */
 static void fail(dmb_chunks *parts, int32_t status, uint32_t done)
 {
     parts->failed = 1;

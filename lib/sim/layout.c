@@ -1,3 +1,19 @@
+/* Memory of a sim in its block. The same code runs with an arena that counts only (dmb_sim_bytes, addresses are
+ * discarded) and with one that places (dmb_sim_carve): the size that a caller was told cannot differ from what is used.
+ *
+ *     in the block    contents                                     rejected step   backup   snapshot, hash
+ *     -------------   ------------------------------------------   -------------   ------   --------------
+ *     struct          handles, options, message                    stays           no       no
+ *     now             accepted configuration                       stays           yes      yes
+ *     memory          what is kept once                            stays           yes      yes
+ *     factors         matrix factors that steps may reuse          stays           no       yes
+ *     trial           configuration of the step under way          discarded       no       no
+ *     work            everything else, the backup itself included  discarded       no       no
+ *     own scene       parts of the scene changed by inputs         stays           no       no
+ *
+ * The own scene follows from values in the memory (dmb_own_scene_update), so whoever restores those updates it. Factors
+ * are in a snapshot so that a restored sim iterates as the original one, and not in the backup, because a step that may
+ * be reverted does not change them. */
 #include "sim/layout.h"
 
 #include <string.h>
@@ -52,7 +68,8 @@ static uint64_t state_bytes(const field_counts *counts)
     return 0 DMB_CONFIGURATION_LIST(DMB_ADD_BYTES) DMB_MEMORY_LIST(DMB_ADD_BYTES);
 }
 
-/* All 0 without joints. */
+/* All 0 without joints. Factors are kept for later steps without joints only, hence kd, kl, kn; with joints the matrix
+ * of the reduced system (eq:joints.reduced-system) takes their place. */
 static void count_constraints(const dmb_scene *scene, field_counts *c)
 {
     const uint64_t any = scene->cluster_count > 0;
@@ -88,6 +105,7 @@ static uint64_t pieces_of(const dmb_scene *scene)
     return pieces > 1 ? pieces : 0;
 }
 
+/* `backup` is last: it is the size of what the other letters count. */
 static field_counts counts_of(const dmb_scene *scene)
 {
     const uint32_t n = scene->node_count;

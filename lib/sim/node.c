@@ -16,6 +16,9 @@ double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration
 #define DMB_DETOUR 2.0       /* [-] length along a bent axis over the distance */
 #define DMB_DETOUR_LEAST 1.0 /* [-] in mean element lengths */
 
+/* Without a contact point nearby the depth is searched around the described one. A node that moved by u may have slid
+ * along a bent axis by more than u: twice the displacement is taken, and one mean element length for a node that did
+ * not move. */
 static uint32_t segment_without_site(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
                                      const double x[3])
 {
@@ -25,6 +28,9 @@ static uint32_t segment_without_site(const dmb_scene *scene, const dmb_configura
                            DMB_DETOUR * moved + DMB_DETOUR_LEAST * scene->length_scale, NULL, &depth);
 }
 
+/* In this order: a straight hole has one segment; an axial-torsional node knows its depth; else the nearest contact
+ * point knows its own, tracked from step to step, and depths differ as described; else a search. A place on the contact
+ * point itself takes the segment that was found for it, since at a station a depth alone can be of either side. */
 uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
                           const double x[3])
 {
@@ -39,8 +45,9 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
     return dmb_hole_segment_at(&scene->hole, known->site_depth[s] + described);
 }
 
-/* Pose at time 0 transported along the hole's axis without twist, and rotated by `turn` about the axis; without a hole
- * along the line of its initial x axis. */
+/* Pose of an axial-torsional node (eq:kinematics.path-velocity): the frame at time 0, carried along the hole's axis
+ * without twist (eq:hole.carried) from depth s0 to s0 + u, then rotated by `turn` about its x axis. Without a hole, or
+ * in a straight one, the axis is the line of its initial x axis. */
 static void axial_torsional_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                                  double rotation[9], double displacement[3])
 {
@@ -76,6 +83,8 @@ void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuratio
     dmb_vec3_copy(configuration->displacement + 3 * node, displacement);
 }
 
+/* The two columns of eq:kinematics.path-velocity: per unit of advance e_x and, where the axis bends, the rotation of
+ * the carried frame t x k in body axes; per unit of spin the rotation about x. */
 void dmb_axial_torsional_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                                  const double rotation[9], double columns[12])
 {
@@ -89,6 +98,7 @@ void dmb_axial_torsional_columns(const dmb_scene *scene, const dmb_configuration
     }
 }
 
+/* Linear in the rows. For accelerations the part from the change of the columns along the path is not in it. */
 void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
                      double vector[6])
 {
@@ -215,7 +225,7 @@ const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *te
     return dmb_part_text(text, "load", load, scene->loads[load].name, sizeof scene->loads[load].name);
 }
 
-/* ad(v)^T M v */
+/* ad(v)^T M v of unit spin v = (0; e_x): minus the left side of eq:motion.unbalance. */
 void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6])
 {
     const double spin[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0};

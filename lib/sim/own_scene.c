@@ -1,3 +1,18 @@
+/* Scene of one sim: compiled parts that inputs or cutters change are copied, all others are shared.
+ *
+ *     target of the input            part of the own scene
+ *     ----------------------------   --------------------------------------------------------------
+ *     set point, load, bit load      time function number time_function_count + input, which is the
+ *                                    transition eq:drive.reference; NaN: the described function
+ *     gains and limits of a drive    members of the drive
+ *     friction                       factor on the coefficients of the law and on those by depth
+ *     fluid density                  weights of element types and of nodes
+ *     external damping               coefficients of the nodes
+ *     flow rate                      pressures and forces of the mud (dmb_scene_set_flow)
+ *     stuck place                    nothing: the state has stuck_held and stuck_anchor
+ *
+ * A compiled scene of sparse clusters has a dense twin for analyses; it shares the copied arrays, and its few numbers
+ * are set along with those of the scene. */
 #include "sim/own_scene.h"
 
 #include <math.h>
@@ -116,7 +131,8 @@ static void set_friction(dmb_scene *own, const dmb_scene *described, double fact
     own->hole.friction = factor;
 }
 
-/* Buoyancy is linear in the density. */
+/* Buoyancy is linear in the density (eq:motion.weight with the mass of the displaced mud taken off), so each weight is
+ * the described one less the change of density times the displaced volume [m3], and moments likewise [m4]. */
 static void set_density(dmb_own_scene *own, const dmb_scene *described, double density)
 {
     const double more = density - described->fluid_density;
@@ -151,6 +167,7 @@ static void set_damping(const dmb_sim *sim)
                             sim->own->node_damping + 5 * (size_t)i);
 }
 
+/* Density and flow cost O(nodes); they are computed when they change only. */
 static void set_input(const dmb_sim *sim, uint32_t input)
 {
     dmb_own_scene *own = sim->own;
@@ -231,7 +248,7 @@ static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
     }
 }
 
-/* Creates the own scene, before the values of inputs. */
+/* Copies the parts, before any value of an input is set in them. */
 static void make(dmb_sim *sim, const dmb_scene *scene)
 {
     dmb_own_scene *own = sim->own;
@@ -265,6 +282,8 @@ void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model)
     dmb_own_scene_update(copy);
 }
 
+/* An input without `initial` starts as described; a time function then has the value NaN and stays in effect until the
+ * first set. The transition begins at the initial value, at rest. */
 void dmb_own_scene_begin(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
