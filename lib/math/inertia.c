@@ -172,9 +172,9 @@ DMB_BLOCK_KERNEL void update_next(int n, int m, int count, work_row *a, double *
         for (int i = 0; i < m; i++) row_subtract(m, a[k][n + i] / a[k][k], a[k] + n, next + m * i);
 }
 
-/* From row k on, with pivots of two rows; rows before it are eliminated. */
-/* The slow way for blocks that need pivots of two rows: the front is copied into one full matrix and eliminated by
- * `eliminate`; the rows eliminated before keep their pivots. */
+/* From row k on, with pivots of two rows; rows before it are eliminated. The slow way for blocks that need pivots of
+ * two rows: the front is copied into one full matrix and eliminated by `eliminate`; the rows eliminated before keep
+ * their pivots. */
 static uint32_t eliminate_from(int k, int n, int m, block_front *b)
 {
     double all[4 * DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX] = {0.0};

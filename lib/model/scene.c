@@ -35,6 +35,7 @@ void dmb_scene_fill_pulls(dmb_scene *scene)
     }
 }
 
+/* Losses of all pieces at another rate. The shape of the annulus does not depend on the rate, and stays. */
 void dmb_scene_set_flow(dmb_scene *scene, double rate)
 {
     double before[2] = {0.0, 0.0};

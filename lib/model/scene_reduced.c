@@ -1,3 +1,13 @@
+/* Blocks of the reduced system of scenes with joints (eq:joints.reduced-system), and the order of their elimination.
+ *
+ *     dense cluster            one block: its independent coordinates (and multipliers)
+ *     node of a sparse one     one block each: all its rows, and multipliers of constraints that end there
+ *     other node of a chain    one block each
+ *       with joints
+ *     chain without joints     no block: it is eliminated along the chain (math/block_tridiagonal.c)
+ *
+ * Elements between two blocks, and constraints of sparse clusters, are the edges of the graph whose elimination order
+ * math/elimination_order.c computes. */
 #include "model/scene.h"
 
 #include <string.h>
@@ -147,6 +157,8 @@ static int32_t make_room(dmb_scene *scene, const dmb_allocator *allocator, uint3
     return status;
 }
 
+/* The pattern is computed twice if there are sparse clusters: multipliers are placed by the order of elimination, and
+ * offsets of the blocks follow from the capacities with them. */
 static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
 {
     dmb_vector capacity = dmb_vector_of(sizeof(uint32_t)), edges = dmb_vector_of(sizeof(dmb_block_edge));
@@ -167,6 +179,8 @@ static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
     return status;
 }
 
+/* Offsets of the two blocks of the element behind each node, so that assembly does not search the pattern. SIZE_MAX:
+ * both ends are in the same block, or there is no element. */
 static void find_links(dmb_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; ++i) {
@@ -190,7 +204,11 @@ int32_t dmb_scene_number_blocks(dmb_scene *scene, const dmb_allocator *allocator
     return status;
 }
 
-/* The graph of nodes, the ground behind them, and of constraints; and the walk through it, depth first. */
+/* Bridges: joints without which the graph would fall apart. Vertices are the nodes and the ground, edges the
+ * constraints between them; elements are none, as they are no equations. One walk through the graph, depth first,
+ * numbers the vertices; `low` is the lowest number that is reached from a vertex or those beyond it by an edge that the
+ * walk did not take. An edge is a bridge if nothing beyond it
+ * reaches back to its near end or further (Tarjan 1974). */
 typedef struct graph {
     const dmb_scene *scene;
     uint32_t *start, *edge; /* constraints of each vertex; shape (n + 2), (2 (ends)) */
@@ -282,6 +300,8 @@ static void leave(graph *g, uint32_t before, uint32_t v, uint32_t *beyond)
     if (g->low[v] > g->number[before] && is_bridge_kind(g->scene, g->by[v])) beyond[g->by[v]] = v;
 }
 
+/* The walk without recursion, whose depth could be the number of nodes. From the root on: the next edge of the last
+ * vertex on the path, or back by one vertex if all of its edges were visited. */
 static void iterator(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
 {
     uint32_t depth = 0, v = root;
@@ -306,6 +326,8 @@ static void iterator(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
     }
 }
 
+/* The ground is the first root, so that the side `beyond` a bridge is the one that it connects to the ground. Parts
+ * without connection to the ground have roots of their own. */
 int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator, uint32_t *beyond)
 {
     const size_t n = (size_t)scene->node_count + 2, ends = (size_t)scene->constraint_count * (DMB_CONSTRAINT_NODES + 1);

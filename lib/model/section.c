@@ -21,6 +21,8 @@ double dmb_ring_second_moment(double outer, double inner)
     return dmb_ring_area(outer, inner) * (outer * outer + inner * inner) / 16.0;
 }
 
+/* Stiffness and mass of a circular tube for what the description leaves at 0. Rows: strains (axial, shear y, shear z),
+ * then twist and curvatures; G = E/(2 (1 + nu)), polar second moment 2 I. */
 void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section)
 {
     const double A = dmb_ring_area(def->outer_diameter, def->inner_diameter);
@@ -103,6 +105,9 @@ double dmb_inner_area(const dmb_pipe_def *def, int in_tool_joint)
     return dmb_ring_area(diameters[1], 0.0);
 }
 
+/* Weight in mud over weight in air. With equal muds 1 - rho_m/rho. With another mud inside, each metre displaces the
+ * outer mud by the whole outer area and contains inner mud in the bore: the difference of the two densities acts on the
+ * bore's area. */
 double dmb_buoyancy_factor(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud)
 {
     const double factor = 1.0 - mud->outside / def->density;
@@ -140,6 +145,8 @@ static double mud_at(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *
     return inside * dmb_ring_area(d[1], 0.0) + mud->outside * moved_outside(d[0], added, hole);
 }
 
+/* [kg/m] of mud that moves sideways with a pipe (eq:mud.added-mass): that in the bore, and that displaced outside; the
+ * tool joint's share is spread over the body, which has the elements. */
 double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole)
 {
     const double body = dmb_pipe_body_length(def);
@@ -292,6 +299,9 @@ void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double da
     dmb_element_type_along(def, dmb_element_length(def), arm, damping_time, type);
 }
 
+/* Constants of an element of length L from those of its section. The shear stiffness is that of
+ * eq:beam.shear-correction, so that linear statics are exact at the nodes. Stiffnesses are divided by L because they
+ * multiply the change of the relative pose of the ends, not the strain per metre. */
 void dmb_element_type_along(const dmb_pipe_def *def, double L, const double arm[2], double damping_time,
                             dmb_element_type *type)
 {

@@ -191,9 +191,8 @@ static int beyond_middle(const station *at)
     return along >= 0.5 * (type->arm[0] + type->length + type->arm[1]);
 }
 
-/* Contact point of the stabiliser at the station; DMB_NONE: none with wall contact. */
-/* Rings are sorted by string and place, their ranges do not overlap: the first one that ends at or beyond the
- * station. */
+/* Contact point of the stabiliser at the station; DMB_NONE: none with wall contact. Rings are sorted by string and
+ * place, their ranges do not overlap: the first one that ends at or beyond the station. */
 static uint32_t stabiliser_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -213,9 +212,9 @@ static uint32_t stabiliser_site(const station *at)
                                                                            : scene->bodies[scene->rings[low].body].site;
 }
 
-/* Contact point inside the element that represents the station; DMB_NONE: one of its ends does. */
-/* Contact points inside carry lengths around the middle of the element: the station belongs to the one in whose length
- * it lies, else to a node. */
+/* Contact point inside the element that represents the station; DMB_NONE: one of its ends does. Contact points inside
+ * carry lengths around the middle of the element: the station belongs to the one in whose length it lies, else to a
+ * node. */
 static uint32_t inside_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;

@@ -142,9 +142,8 @@ static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckl
     return judge_pose(buckling, sim, options, none ? options->factor_max : buckling->factor[0], none, status);
 }
 
-/* Factors about the present state, then along the equilibria. */
-/* `first` keeps the factors of the present state: path following confirms further factors by them, and messages compare
- * with them. */
+/* Factors about the present state, then along the equilibria. `first` keeps the factors of the present state: path
+ * following confirms further factors by them, and messages compare with them. */
 static int32_t find_factors(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");

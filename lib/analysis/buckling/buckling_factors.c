@@ -30,9 +30,8 @@ static void store_shape(dmb_buckling *buckling, uint32_t k)
     dmb_buckling_normalise(buckling->work->scene, buckling->shape + k * rows);
 }
 
-/* distance: of the factor from the linearised state. */
-/* Factors closer than DMB_SAME_FACTOR belong to one eigenspace: the vector is made orthogonal to those found in it, as
- * the count has shown that there are as many. */
+/* distance: of the factor from the linearised state. Factors closer than DMB_SAME_FACTOR belong to one eigenspace:
+ * the vector is made orthogonal to those found in it, as the count has shown that there are as many. */
 static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
 {
     const size_t unknowns = buckling->pencil.unknowns;

@@ -48,10 +48,10 @@ static int32_t pass_by(dmb_flutter *flutter, int32_t status)
     return dmb_is_final(status) ? status : DMB_OK;
 }
 
-/* Largest real part of a damped mode about flutter->state; 0 if it is rounding of a mode without growth or decay. */
-/* The linearisation scales gravity, loads and bit loads by 1 + factor itself if all loads grow; single loads are
- * already part of the copied trial. The root with growth is stored with its factor: bisection overwrites it with the
- * lowest one found. */
+/* Largest real part of a damped mode about flutter->state; 0 if it is rounding of a mode without growth or decay. The
+ * linearisation scales gravity, loads and bit loads by 1 + factor itself if all loads grow; single loads are already
+ * part of the copied trial. The root with growth is stored with its factor: bisection overwrites it with the lowest
+ * one found. */
 static int32_t judge(dmb_flutter *flutter, double factor)
 {
     const double growth = flutter->pattern->scale == DMB_SCALE_ALL ? factor : 0.0;

@@ -89,9 +89,9 @@ static void assemble(dmb_dynamic_stiffness *s)
 
 /* ---- Factors and solution ---------------------------------------------------------------------------------------- */
 
-/* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots are on the diagonal. */
-/* Factors of rounding size are not singular to the elimination: a motion that neither stiffness nor inertia resists at
- * this frequency would get a huge, meaningless response. The pivot is compared with the terms of which it is the
+/* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots are on the diagonal. Factors of
+ * rounding size are not singular to the elimination: a motion that neither stiffness nor inertia resists at this
+ * frequency would get a huge, meaningless response. The pivot is compared with the terms of which it is the
  * difference. */
 static int64_t unconstrained_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain)
 {

@@ -52,7 +52,8 @@ void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_
     out->mass = DMB_ARENA_DOUBLES(arena, size.count);
 }
 
-/* Numbers coordinates in the order of their rows inside each block. */
+/* Numbers coordinates in the order of their rows inside each block. First counted block by block, then moved behind the
+ * blocks before: the coordinates of a block follow each other from links->row on. */
 static void number(const dmb_linear *linear, dmb_jointed_chains *links)
 {
     const dmb_scene *scene = &linear->scene;
@@ -70,7 +71,9 @@ static void number(const dmb_linear *linear, dmb_jointed_chains *links)
             links->place[i] += links->row[scene->node_block[dmb_node_of_row(scene, linear->row_of[i])]];
 }
 
-/* Contribution of a row to the scales of the pivots: R^T diag(|K|) R and R^T diag(|M|) R on the diagonal. */
+/* Contribution of a row to the scales of the pivots: R^T diag(|K|) R and R^T diag(|M|) R on the diagonal. A pivot is
+ * the difference of such terms; what is left of it is rounding if it is far below them
+ * (dmb_dynamic_is_unconstrained). */
 static void add_scale(const dmb_linear *linear, const dmb_jointed_chains *links, uint32_t row, double stiffness,
                       double mass)
 {
@@ -100,7 +103,8 @@ static void add_scales(const dmb_linear *linear, const dmb_jointed_chains *links
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Offsets of blocks of the present sizes, without gaps. */
+/* Offsets of blocks of the present sizes, without gaps. In the order of elimination: the diagonal block, then for each
+ * later block that it is connected with, or that elimination connects it with, the upper and the lower one. */
 static void place_blocks(const dmb_block_pattern *scene, dmb_jointed_chains *links)
 {
     dmb_block_pattern *pattern = &links->pattern;
@@ -131,7 +135,7 @@ typedef struct part_of_nodes {
     uint32_t i, j;
 } part_of_nodes;
 
-/* half = X R_j */
+/* half = X R_j. The rows of a node depend on the coordinates of its own block only: R_j has no other columns. */
 static void times_null_space(const dmb_linear *linear, const dmb_jointed_chains *links, const part_of_nodes *X)
 {
     const dmb_scene *scene = &linear->scene;
@@ -244,6 +248,8 @@ static int64_t unconstrained_place(const dmb_dynamic_stiffness *s)
     return -1;
 }
 
+/* M, C and K of all blocks are combined for the frequency, then factored. A block without a pivot and a pivot of
+ * rounding size are both reported by the node. */
 int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *s)
 {
     const dmb_block_pattern *pattern = &s->links.pattern;
@@ -255,6 +261,7 @@ int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *s)
     return loose >= 0 ? (int64_t)node_of_place(s, (uint32_t)loose) : -1;
 }
 
+/* g = R^T f of the rows begin .. end: dependent rows add to the coordinates that move them. */
 static void restrict_rows(const dmb_dynamic_stiffness *s, uint32_t begin, uint32_t end, dmb_complex_array x)
 {
     const dmb_linear *linear = s->linear;
@@ -266,6 +273,7 @@ static void restrict_rows(const dmb_dynamic_stiffness *s, uint32_t begin, uint32
         }
 }
 
+/* d = R z of the rows begin .. end, with dependent rows by their coordinates, constrained ones 0. */
 static void expand_rows(const dmb_dynamic_stiffness *s, uint32_t begin, uint32_t end, dmb_complex_array x)
 {
     const dmb_linear *linear = s->linear;

@@ -10,7 +10,8 @@
 /* Numbers of a right-hand side or a block at all frequencies, real and imaginary parts. */
 enum { NUMBERS = 2 * DMB_FREQUENCIES };
 
-/* Largest number of values of a chain without joints. */
+/* Largest number of values in the upper blocks of a chain without joints: the kernel stores W_i = D_i^-1 U_i of one
+ * chain at a time there. */
 static size_t largest_chain(const dmb_scene *scene)
 {
     size_t most = 0;
@@ -88,6 +89,8 @@ static void copy_from(const dmb_dynamic_group *group, uint32_t frequency, uint32
     }
 }
 
+/* A prescribed motion p enters by its forces -A p on the other rows (dmb_dynamic_set_prescribed). Constrained rows have
+ * no equation; jointed chains get R^T f. */
 void dmb_dynamic_group_put(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x)
 {
@@ -115,7 +118,7 @@ static void set_frequencies(const dmb_dynamic_group *group, double omega[DMB_FRE
     for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) omega[l] = group->omega[l < group->used ? l : group->used - 1];
 }
 
-/* Jointed chains. */
+/* Jointed chains are one graph and are solved in one call; chains without joints follow one by one. */
 static uint32_t solve_jointed(const dmb_dynamic_group *group, uint32_t columns)
 {
     const dmb_dynamic_stiffness *s = group->stiffness;
@@ -167,6 +170,7 @@ uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns)
     return bad;
 }
 
+/* The reverse of `put`: dependent rows by R z, and the prescribed motion, which x contains on entry, is added. */
 void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x)
 {

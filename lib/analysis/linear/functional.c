@@ -29,7 +29,8 @@ static void exchange(double **a, double **b)
     *b = kept;
 }
 
-/* Exchanges the speeds of the state with those of the trial, and back. */
+/* Exchanges the speeds of the state with those of the trial, and back: the trial's arrays take the unit motions, and
+ * the state keeps its own without a copy. */
 static void exchange_motion(dmb_sim *copy)
 {
     exchange(&copy->now.velocity, &copy->trial.velocity);
@@ -77,6 +78,8 @@ void dmb_functional_add_node(const dmb_scene *scene, uint32_t node, dmb_function
     for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;
 }
 
+/* The rows on which a section at a place may depend: those of the nodes that move it, and of one more node on either
+ * side. */
 int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
@@ -107,6 +110,7 @@ void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_func
 
 /* ---- Differences ------------------------------------------------------------------------------------------------- */
 
+/* The answer after the pose of one row alone has changed by `step` in body axes; the pose is restored. */
 static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, uint32_t row, double step)
 {
     const dmb_scene *scene = copy->scene;
@@ -141,7 +145,8 @@ static double slope(double *number, double step, const dmb_sim *copy, dmb_answer
     return (after - before) / (2.0 * step);
 }
 
-/* Central differences of any step are exact for accelerations and speeds. */
+/* Central differences by the pose. Those by accelerations and speeds are exact for any step, since queries are linear
+ * in accelerations and at most quadratic in speeds: the even term cancels. */
 static void differences(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;

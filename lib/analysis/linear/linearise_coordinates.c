@@ -9,6 +9,13 @@
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
+/* Rows of prescribed motion (supports, motion drives) are not unknowns: their rows and columns are cleared from M, C
+ * and K, after what is still needed has been copied:
+ *
+ *     column, by all rows     forces by which a prescribed motion acts on the others
+ *     row, by all columns     reaction of the support or drive
+ *
+ * All blocks of a row are on the diagonal and beside it, and in the constraints of its node. */
 static void clear_row(double *block, uint32_t columns, uint32_t row)
 {
     memset(block + (size_t)columns * row, 0, columns * sizeof(double));
@@ -286,6 +293,7 @@ void dmb_linear_terms(const dmb_linear *linear, const dmb_linear_matrix *A, cons
     add_joint_terms(scene, A->joints, x, y);
 }
 
+/* R^T A R in full, column by column by products with unit coordinates: column i begins at n i. */
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out)
 {
     const size_t n = linear->coordinates, rows = linear->rows;
@@ -300,6 +308,7 @@ void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, doub
     }
 }
 
+/* Absolute diagonal of K by rows, with the terms of joints: random motions and limits of rounding are scaled by it. */
 void dmb_linear_set_stiffness_size(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
@@ -414,6 +423,7 @@ static dmb_linear_matrix combine(dmb_linear *linear, double k, double c, double 
     return to;
 }
 
+/* Factors of the combination in the blocks of the copy `work`, so that dmb_linear_solve uses the solver of the sim. */
 int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_block_weakest *weakest)
 {
     dmb_block_weakest unused;
@@ -432,6 +442,8 @@ uint32_t dmb_linear_negative(dmb_linear *linear, double k, double c, double m)
     return count;
 }
 
+/* Number of eigenvalues of (K, M) below `square`: by Sylvester's law K - square M has as many negative eigenvalues as
+ * there are (eq:modes.count). */
 uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
 {
     return dmb_linear_negative(linear, 1.0, 0.0, -square);

@@ -160,7 +160,8 @@ static int negative_of_joints(dmb_sim *sim, const row_storage *rows, double shar
     return 0;
 }
 
-/* Of K + share T; -1: not counted. */
+/* Negative eigenvalues of K + share T: of chains without joints, plus those of the reduced system of jointed ones. -1:
+ * not counted. */
 static int32_t count(dmb_sim *sim, const row_storage *rows, double share)
 {
     const dmb_block_raise raise = {.share = share, .amount = rows->amount};
@@ -204,6 +205,8 @@ double dmb_stiffness_largest(const dmb_sim *sim)
     return most;
 }
 
+/* x . T x / x . W x: by how much T can move the eigenvalue of the shape x, in the metric of lengths W in which its
+ * value is given. */
 double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *amount, const double *x)
 {
     const dmb_scene *scene = sim->scene;
@@ -219,6 +222,8 @@ double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *amount, const
     return below > 0.0 ? above / below : 0.0;
 }
 
+/* Factors of K, and the count of K + T with T of rounding alone (part 4 eps) in the chains without joints: neither
+ * residual nor jointed chains are allowed for. */
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)
 {
     const dmb_scene *scene = sim->scene;

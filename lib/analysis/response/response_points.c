@@ -23,8 +23,8 @@ static void scale_rows(uint32_t rows, double re, double im, dmb_complex_array fr
     for (uint32_t r = 0; r < rows; r++) to_im[r] = re * b[r] + im * a[r];
 }
 
-/* Right-hand side of an input into x: forces, also stored in f, or displacements prescribed by a drive. */
-/* By the law of the excitation, for unit amplitude of the quantity that is prescribed:
+/* Right-hand side of an input into x: forces, also stored in f, or displacements prescribed by a drive. By the law of
+ * the excitation, for unit amplitude of the quantity that is prescribed:
  *
  *     force                 f
  *     inertia (unbalance)   w^2 f (eq:response.eccentric)

@@ -1,4 +1,18 @@
-/* Outputs as motions and forces of linear analyses. */
+/* Outputs as motions and forces of linear analyses. A response needs an output that is linear in a small motion with
+ * constant coefficients; others are refused with what to ask for instead:
+ *
+ *     place        motion (is_steady), vibration    refused: axes that rotate in the state
+ *     section      forces and strains               refused: stresses, magnitudes
+ *     profile      components of the two above      refused: magnitudes
+ *     string       hook load, torque, speeds,       refused: weight and torque on bit unless it has one bit
+ *                  weight and torque on its bit
+ *     bit          weight, torque, rock weight
+ *     drive        force; position and speed of     refused: at the rig end, where the motion of the place is asked
+ *                  its joint
+ *     contact      normal force, two frictions
+ *     joint        all its coordinates and forces
+ *     constraint   multipliers
+ *     window, part other than reactions             refused: sums, counts, extremes over time */
 #include <math.h>
 
 #include "analysis/response/response.h"
@@ -62,6 +76,8 @@ static int32_t at_bit(const meaning *m, const dmb_output *output)
                       : refuse(m, DMB_ERR_UNSUPPORTED, "the string must have one bit; name it by a bit output");
 }
 
+/* Weight and torque on bit are those of the only bit of the string. Where the excitation is that bit's load, the weight
+ * has it as a direct part (*bit); the torque has not. */
 static int32_t of_driller(const meaning *m, const dmb_output *output)
 {
     const int32_t q = output->quantity, far = q == DMB_OUTPUT_BIT_SPEED;

@@ -1,4 +1,5 @@
-/* The values of a frequency response: storage by points, transfer functions, combined outputs. */
+/* The values of a frequency response: storage by points, transfer functions, combined outputs. One table: frequencies
+ * of all points, then for each point the complex transfer functions, excitation by excitation, output by output. */
 #include "analysis/response/response.h"
 
 #include <math.h>

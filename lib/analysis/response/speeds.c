@@ -199,9 +199,8 @@ static void write_bands(const speeds_run *r, dmb_speed_band *bands)
     }
 }
 
-/* Points of all curves belong to the speed of the grid that is nearest. */
-/* A grid value is the largest severity of the grid point and of all points nearer to it than to others, so that no peak
- * is lost between two grid points. */
+/* Severity over the caller's grid: the largest one of the grid point itself and of all points of the curves that are
+ * nearer to it than to other grid points, so that no peak between two grid points is lost. */
 static void write_severity(const speeds_run *r, double *severity)
 {
     const double low = r->options.speed_low, last = r->options.points - 1;

@@ -23,6 +23,8 @@ static uint32_t place_of(const dmb_speeds_curve *curve, double speed)
     return low;
 }
 
+/* Severity on the straight line between two points of a curve; outside of the curve the value of its end. The output is
+ * that of the nearer point. */
 static double value_at(const dmb_speeds_curve *curve, double speed, uint32_t *output)
 {
     const uint32_t i = place_of(curve, speed);
@@ -32,6 +34,8 @@ static double value_at(const dmb_speeds_curve *curve, double speed, uint32_t *ou
     return (1.0 - x) * curve->severity[i] + x * curve->severity[i + 1];
 }
 
+/* Sum of the severities of all orders (eq:response.severity), as if all peaked at once. Order and output of the largest
+ * term are returned with it. */
 double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output)
 {
     double sum = 0.0, most = -1.0;
@@ -60,6 +64,7 @@ typedef struct search {
     int32_t is_open;
 } search;
 
+/* Bands are widened by the margin on both sides, but not beyond the range. */
 static void begin_band(search *s, double speed)
 {
     s->open = dmb_speed_band_default();

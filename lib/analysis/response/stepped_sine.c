@@ -228,9 +228,9 @@ static int32_t run_window(sine_run *r)
 
 /* ---- Settling ---------------------------------------------------------------------------------------------------- */
 
-/* Largest difference of a harmonic between the two windows over the largest harmonic of the output. */
-/* Relative to the largest harmonic of the output, but not below floor/tolerance: an output that hardly moves counts as
- * settled at the absolute change `floor`. */
+/* Largest difference of a harmonic between the two windows over the largest harmonic of the output. Relative to the
+ * largest harmonic of the output, but not below floor/tolerance: an output that hardly moves counts as settled at the
+ * absolute change `floor`. */
 static double change_of(const sine_run *r, uint32_t o)
 {
     const double *A = r->sum + (size_t)r->width * o, *B = r->last + (size_t)r->width * o;

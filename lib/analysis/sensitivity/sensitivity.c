@@ -117,6 +117,7 @@ static int same_corners(const dmb_scene *a, const dmb_scene *b)
     return 1;
 }
 
+/* NaN is the input that was not set: it must be so in both. A stuck point is on or off: its value must be equal. */
 static int same_inputs(const dmb_sim *a, const dmb_sim *b)
 {
     for (uint32_t i = 0; i < a->scene->drive_count; i++)

@@ -108,6 +108,8 @@ static void pose_rate(const dmb_sensitivity *s, const dmb_rated_parameter *p, ui
     out[5] = 2.0 * (q[0] * dq[3] - q[3] * dq[0] - q[1] * dq[2] + q[2] * dq[1]);
 }
 
+/* Rates of all rows in the order of the layout: six of a node by its displacement and quaternion, two of an
+ * axial-torsional one. */
 static void write_poses(const dmb_sensitivity *s, const dmb_rated_parameter *p, double *pose)
 {
     const dmb_block_layout *layout = &s->sim->scene->layout;

@@ -17,6 +17,8 @@
 
 /* ---- Side of breakpoints ----------------------------------------------------------------------------------------- */
 
+/* One switch after the other by the FNV-1a hash: states with equal hashes are on the same side of all switches, but for
+ * chance. */
 static uint64_t mix(uint64_t hash, int flag)
 {
     return (hash ^ (flag != 0 ? UINT64_C(1) : UINT64_C(0))) * UINT64_C(0x100000001B3);
@@ -288,10 +290,9 @@ static int32_t refuse(const dmb_sensitivity *s, int32_t status)
 }
 
 /* A step or an advance of the sim with the rates. A failed step restores all of it; a failed advance keeps its
- * completed steps. */
-/* Order of the checks before the step: live handle, sim not moved otherwise, inputs as at creation, accelerations. The
- * follower is attached only during the call. After a failed step, and after a failed advance whose last companion steps
- * were not accepted, the rates are those of the last accepted state. */
+ * completed steps. Order of the checks before the step: live handle, sim not moved otherwise, inputs as at creation,
+ * accelerations. The follower is attached only during the call. After a failed step, and after a failed advance whose
+ * last companion steps were not accepted, the rates are those of the last accepted state. */
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);

@@ -51,8 +51,8 @@ static void turn_back(const chart *c, const double w[3], double out[2])
     out[1] = -c->sine * w[1] + c->cosine * w[2];
 }
 
-/* Rotation of the node from that of the origin, as a quaternion. */
-/* S = exp(0, a, b) Rx(phi) of eq:joints.chart: the swing first, then the twist about the node's own axis. */
+/* Rotation of the node from that of the origin, as a quaternion. S = exp(0, a, b) Rx(phi) of eq:joints.chart: the
+ * swing first, then the twist about the node's own axis. */
 static void relative_rotation(const double *z, double q[4])
 {
     const double tilt[3] = {0.0, z[4], z[5]}, half[4] = {dmb_cos(0.5 * z[3]), dmb_sin(0.5 * z[3]), 0.0, 0.0};
@@ -353,8 +353,8 @@ static int32_t count_strides(const dmb_state_equation *s, const double *y, doubl
     return status;
 }
 
-/* z at the fraction `part` of the way: independent and prescribed rows, and a guess of the dependent ones. */
-/* The guess of dependent coordinates continues their last stride in a straight line. */
+/* z at the fraction `part` of the way: independent and prescribed rows, and a guess of the dependent ones. The guess
+ * of dependent coordinates continues their last stride in a straight line. */
 static void go_to(const dmb_state_equation *s, const double *y, double part)
 {
     const dmb_sim *work = s->work;

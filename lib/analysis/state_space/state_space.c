@@ -192,6 +192,8 @@ static int32_t refuse_size(const dmb_space_work *w, uint64_t states)
     return DMB_ERR_TOO_LARGE;
 }
 
+/* The size is known before anything is computed: coordinates at most (dependent shapes leave room unused), and the
+ * states of the inputs. */
 static int32_t make_room(dmb_space_work *w)
 {
     const uint64_t room = w->options.form == DMB_STATE_MATRICES ? 0 : dmb_space_basis_workspace(w);

@@ -165,9 +165,9 @@ static void add_accelerations(dmb_space_work *w, const double *by_shape, double 
     }
 }
 
-/* 1: the coefficient of the rate of speed i in the output is at the rounding level. */
-/* An output with T d'' contains T (p + X B_1) u' for a speed input u. It is acceptable only if the drive's motion and
- * the motion of the free parts that its inertia causes cancel in the output. */
+/* 1: the coefficient of the rate of speed i in the output is at the rounding level. An output with T d'' contains T
+ * (p + X B_1) u' for a speed input u. It is acceptable only if the drive's motion and the motion of the free parts
+ * that its inertia causes cancel in the output. */
 static int feels_no_rate(const dmb_space_work *w, const dmb_output_rows *o, const double *by_shape, uint32_t i)
 {
     const double *p = w->inputs[i].re;
@@ -275,9 +275,8 @@ int32_t dmb_space_fill(dmb_space_work *w)
 /* Outputs by all rows, from the response analysis: their functionals directly; forces of supports and constraints by
  * the coefficient of each row's force, a_r = -(output for a unit force on row r without motion). */
 
-/* a_r of one row. */
-/* By evaluation of the response's own output with a unit force alone: its sign and fractions are defined in one
- * place. */
+/* a_r of one row. By evaluation of the response's own output with a unit force alone: its sign and fractions are
+ * defined in one place. */
 static double fraction_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
                               dmb_complex_array force, uint32_t row)
 {

@@ -1,7 +1,7 @@
-/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system
- * stores the forces of a constrained row separately: its column in
- * constrained_columns, its row in constrained_rows, six entries each of the node before, of the node and of the node
- * after. */
+/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows: the system before
+ * constrained rows are removed and joints reduced. A linear system stores the forces of a constrained row separately:
+ * its column in constrained_columns, its row in constrained_rows, six entries each of the node before, of the node and
+ * of the node after, for M, C and K one after the other. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -30,6 +30,8 @@ typedef struct builder {
     int32_t placing;
 } builder;
 
+/* An entry of the present row. Joints reach a column again that the chain has reached before: `mark` contains the row
+ * in which a column occurred last, and the entry is added there. */
 static void add_entry(builder *b, uint32_t column, const double entry[3])
 {
     if (b->mark[column] != b->row + 1) {
@@ -105,7 +107,8 @@ static void add_rows(builder *b)
         }
 }
 
-/* Adds the active equations, numbered by the rows of all constraints. */
+/* Adds the active equations, numbered by the rows of all constraints. Rows that are switched off (open joints,
+ * couplings without effect) are omitted, so that the numbers are those of dmb_analysis_array's multipliers. */
 static void add_equations(builder *b)
 {
     const dmb_scene *scene = &b->linear->scene;
@@ -253,7 +256,8 @@ static void put_quaternions(const dmb_sim *sim, double *values)
     }
 }
 
-/* Residual with prescribed constraint forces of 0. */
+/* Residual with prescribed constraint forces of 0: what forces and inertia leave over by all rows, which the
+ * multipliers balance through the transposed Jacobian. */
 static int32_t put_residual(dmb_sim *sim, double *values)
 {
     dmb_sim *copy = dmb_state_copy(sim);

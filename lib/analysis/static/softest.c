@@ -227,9 +227,9 @@ static double expect(dmb_softest *s, double *x)
 }
 
 /* A lower bound near the expected value, which is counted: positive, or for an unstable state negative. *high: the
- * least number below which eigenvalues were counted, or infinite. 0 if there is none. */
-/* From 0.9 of the expected value in steps of 0.6 down to 1e-6 of it, then 0, then negative numbers whose size grows
- * about fourfold: an unstable state has a negative lowest value of unknown size. */
+ * least number below which eigenvalues were counted, or infinite. 0 if there is none. From 0.9 of the expected value
+ * in steps of 0.6 down to 1e-6 of it, then 0, then negative numbers whose size grows about fourfold: an unstable
+ * state has a negative lowest value of unknown size. */
 static int find_below(dmb_softest *s, double expected, double *low, double *high)
 {
     const double unit = fabs(expected);

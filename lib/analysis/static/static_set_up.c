@@ -21,6 +21,8 @@ int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dm
     return check.status;
 }
 
+/* A search without load steps, slip or spins: full loads, tangent with every residual. Strategies change these fields
+ * afterwards. */
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
 {
     memset(search, 0, sizeof *search);
@@ -33,6 +35,8 @@ void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static
     search->unbalanced = DMB_NONE;
 }
 
+/* Friction of a state at rest has no direction of its own: an assumed slip [m/s, rad/s] of all contact points gives it
+ * one. Both 0: no friction. */
 void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
 {
     search->evaluation.slipping = axial != 0.0 || rotation != 0.0;
@@ -40,6 +44,8 @@ void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
     search->evaluation.slip[1] = rotation;
 }
 
+/* Every residual of every strategy passes here, so that a search can be cancelled after each one, and torques of
+ * spinning strings are added to each. */
 int32_t dmb_static_evaluate(dmb_static_search *search)
 {
     int32_t status = dmb_progress_pulse(search->sim);

@@ -45,8 +45,8 @@ static void largest(double value, double *of)
     if (value > *of) *of = value;
 }
 
-/* Pressure loss of tripping: laminar first, with the turbulent constant above the critical Reynolds number. */
-/* The limit 3470 - 1370 n is that of laminar flow of a power-law mud with the exponent n (eq:mud.turbulent). */
+/* Pressure loss of tripping: laminar first, with the turbulent constant above the critical Reynolds number. The limit
+ * 3470 - 1370 n is that of laminar flow of a power-law mud with the exponent n (eq:mud.turbulent). */
 static dmb_flow_loss trip_loss(const column *c, double pipe, double hole)
 {
     const double k = pipe / hole, area = dmb_ring_area(hole, pipe), displaced = dmb_ring_area(pipe, 0.0);

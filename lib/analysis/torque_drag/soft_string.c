@@ -131,8 +131,8 @@ static void confined_at(const march *m, double depth, dmb_confined_pipe *pipe)
     pipe->clearance = fmax(0.0, dmb_hole_radius(m->soft->hole, depth) - m->radius);
 }
 
-/* [-] Friction coefficient at a depth. */
-/* The wall's coefficient by depth times the factor `friction`, or that number alone. */
+/* [-] Friction coefficient at a depth. The wall's coefficient by depth times the factor `friction`, or that number
+ * alone. */
 static double friction_at(const march *m, double depth)
 {
     const dmb_soft_string *soft = m->soft;
@@ -142,9 +142,8 @@ static double friction_at(const march *m, double depth)
            dmb_hole_piece_value(dmb_hole_piece_at(soft->hole, depth), DMB_WALL_MU_DYNAMIC, depth);
 }
 
-/* [N/m] Wall force and its derivative by N. */
-/* Beyond the helical load of eq:drilling.helical the wall carries the helix, too (eq:drilling.helix-force). A ratio
- * that is NaN counts as beyond. */
+/* [N/m] Wall force and its derivative by N. Beyond the helical load of eq:drilling.helical the wall carries the
+ * helix, too (eq:drilling.helix-force). A ratio that is NaN counts as beyond. */
 static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N, double *by_force)
 {
     double wall = dmb_confined_wall_force(pipe, N, by_force);
@@ -240,10 +239,10 @@ static double piece_above(const dmb_hole *hole, double depth)
     return piece > hole->piece ? piece[-1].depth : -(double)INFINITY;
 }
 
-/* [m] Depth of the end of the step from the present place; not beyond `end`, which is exact. */
-/* Steps end where the equations jump: at the end of a run of pipes, survey stations, sections of the wall and requested
- * stations. In between they are equal, at most STEP_MAX and TURN_MAX long. At survey stations and ends a step ends on
- * the exact number, so that it cannot step over one by rounding. */
+/* [m] Depth of the end of the step from the present place; not beyond `end`, which is exact. Steps end where the
+ * equations jump: at the end of a run of pipes, survey stations, sections of the wall and requested stations. In
+ * between they are equal, at most STEP_MAX and TURN_MAX long. At survey stations and ends a step ends on the exact
+ * number, so that it cannot step over one by rounding. */
 static double next_depth(const march *m, double end, double spacing)
 {
     const double depth = m->place.depth, start = m->soft->start;
