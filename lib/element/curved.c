@@ -15,6 +15,7 @@ static dmb_curved_constants constants_of(const dmb_element_type *type)
     return c;
 }
 
+/* (pa, pb) = M (va, vb) in the frames of the two ends; of a bent element with the part that follows its bend. */
 void dmb_element_momentum(const dmb_element_type *type, const double d[6], const double va[6], const double vb[6],
                           double pa[6], double pb[6])
 {
@@ -35,7 +36,8 @@ void dmb_element_momentum(const dmb_element_type *type, const double d[6], const
     dmb_vec6_copy(p + 6, pb);
 }
 
-/* M a - v^^T M v of the constant part of the mass. */
+/* Inertial forces M a - v^^T M v of both ends: of the constant part here, of the bent part with the change of its mass
+ * as it bends (eq:curved.forces). */
 void dmb_element_inertia(const dmb_element_type *type, const double d[6], const double v[12], const double a[12],
                          double f[12])
 {
@@ -52,6 +54,8 @@ void dmb_element_inertia(const dmb_element_type *type, const double d[6], const 
     dmb_curved_add_inertia(&c, &shape, v, a, f);
 }
 
+/* The weight at the centre of the bent element less that where the nodes carry it (eq:curved.weight), as forces on both
+ * ends in their frames. A straight element has no difference. */
 void dmb_element_bent_weight(const dmb_element_type *type, const double d[6], const double Ra[9],
                              const double gravity[3], double f[12])
 {

@@ -6,6 +6,14 @@
 
 #include "math/block_rows.h"
 
+/* Storage, by blocks in the order of the chain, each row-major:
+ *
+ *     row[i]     first row of block i
+ *     diag[i]    D_i, size_i x size_i
+ *     link[i]    U_i, size_i x size_i+1, and L_i, size_i+1 x size_i: both have equally many numbers
+ *
+ * After the factorisation D_i contains its factors, U_i is W_i; all three are then stored by columns, which the
+ * solution reads in sequence. */
 int32_t dmb_block_count(uint32_t n, const uint8_t *size, dmb_block_totals *totals)
 {
     uint64_t rows = 0, diagonal = 0, link = 0;
@@ -194,6 +202,7 @@ int64_t dmb_block_factor_watched(const dmb_block_layout *layout, dmb_block_matri
     return factor_blocks(layout, matrix, first, count, weakest);
 }
 
+/* Down the chain y_i = D_i^-1 (b_i - L_i-1 y_i-1), up again x_i = y_i - W_i x_i+1. */
 void dmb_block_solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                      double *rhs)
 {

@@ -34,6 +34,7 @@ static void rotate(size_t n, double *A, double *V, size_t p, size_t q)
     A[p + n * q] = A[q + n * p] = 0.0;
 }
 
+/* Scaled by the largest entry: squares do not overflow. */
 static double frobenius(size_t count, const double *A)
 {
     double most = 0.0, sum = 0.0;
@@ -81,6 +82,8 @@ static void sort_ascending(size_t n, double *values, double *V)
     }
 }
 
+/* Sweeps until one has nothing to rotate. The lower triangle is taken; the columns of A become the eigenvectors in the
+ * order of ascending values. */
 int32_t dmb_dense_symmetric(size_t n, double *A, double *values, double *work)
 {
     double *V = work;
@@ -132,6 +135,8 @@ static void solve_upper(size_t n, const double *L, double *x)
     }
 }
 
+/* K x = value M x as the symmetric problem L^-1 K L^-T y = value y, x = L^-T y, so that x . M x = 1. Both sides are
+ * applied to the full matrix. */
 int32_t dmb_dense_pair(size_t n, double *K, double *M, double *values, double *work)
 {
     const size_t wrong = cholesky(n, M);
@@ -244,6 +249,8 @@ static int turn_all(size_t n, size_t width, size_t height, double *a)
     return turned;
 }
 
+/* Singular values of the first n rows: rotated until they are orthogonal in pairs, their lengths are the values, sorted
+ * in descending order. */
 void dmb_dense_singular(size_t n, size_t width, size_t height, double *a, double *values)
 {
     for (int i = 0; i < SWEEPS && turn_all(n, width, height, a); i++) continue;

@@ -7,6 +7,7 @@
 #include "model/mesh.h"
 #include "model/model.h"
 
+/* A bit or reamer cuts only with a law of rock that acts in this scene; others must fit through the hole as it is. */
 static bool cuts(const dmb_mesh *mesh, const dmb_bit_def *bit)
 {
     return mesh->model->wall.cut_spacing > 0.0 && (mesh->features & DMB_FEATURE_ROCK) != 0 &&
@@ -47,6 +48,7 @@ static int32_t check_slope(const dmb_mesh *mesh, uint32_t bit, double least)
     return DMB_ERR_GEOMETRY;
 }
 
+/* Stations from cut_start to cut_end at the spacing, one more than spacings; none if nothing cuts. */
 int32_t dmb_mesh_cuts(dmb_mesh *mesh)
 {
     const dmb_wall_def *wall = &mesh->model->wall;

@@ -156,6 +156,8 @@ static void fill_rotors(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+/* Nodes of a string follow each other and are one chain; every body that is no part of a string is a chain of one
+ * node. */
 static void fill_chains(const dmb_mesh *mesh, dmb_scene *scene)
 {
     uint32_t chain = 0;

@@ -24,6 +24,12 @@ static void point_in_element(const dmb_mesh *mesh, const dmb_place *place, dmb_s
     point->node = dmb_mesh_element_at(mesh, point->element)->node;
 }
 
+/* A place on a part becomes a point of the scene:
+ *
+ *     no part given           ground: the offset is a point of the world
+ *     body, bit, stabiliser,  rigid with a node: offset from its reference point, along x by the arm
+ *     rigid pipe, joint, end
+ *     else                    inside an element: its two nodes move the section */
 dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                                const double offset[3])
 {

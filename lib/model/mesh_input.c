@@ -63,6 +63,8 @@ static int32_t check_scene(const dmb_mesh *mesh, const dmb_input_def *def)
     return DMB_ERR_UNSUPPORTED;
 }
 
+/* An input by the number of its part in the scene, which has the number of the description for all kinds with
+ * inputs. */
 static int32_t add_input(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, mesh->model->inputs, i);
@@ -167,6 +169,8 @@ static uint32_t follower_of(const dmb_scene *scene, uint32_t of)
     return DMB_NONE;
 }
 
+/* Segments per revolution follow a time function as described. An input that replaces it at run time is not followed: a
+ * warning. */
 uint32_t dmb_followed_input(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
     for (uint32_t i = from; i < scene->input_count; ++i) {

@@ -58,6 +58,7 @@ static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_
     return check.status;
 }
 
+/* The transitions of two sections must not overlap, and a line needs a section to lead to. */
 static int32_t check_place(const dmb_mesh *mesh, const dmb_hole_section *all, uint32_t i, uint32_t count)
 {
     const dmb_hole_section *s = all + i;
@@ -148,6 +149,8 @@ static int32_t pass_transition(section_iterator *iterator, const dmb_hole_sectio
     return status;
 }
 
+/* Behind a step values stay; behind the begin of a line they lead straight to those of the next section, which keeps
+ * them from its depth on. */
 static section_values slope_behind(const dmb_wall_def *wall, const dmb_hole_section *s, const section_values *values)
 {
     section_values slope = {{0}};
@@ -157,6 +160,8 @@ static section_values slope_behind(const dmb_wall_def *wall, const dmb_hole_sect
     return slope;
 }
 
+/* Straight on from the last piece to the begin of the transition, then the transition, which ends with values and slope
+ * of this section. */
 static int32_t pass_section(section_iterator *iterator, uint32_t i, uint32_t count)
 {
     const dmb_wall_def *wall = &iterator->mesh->model->wall;

@@ -41,7 +41,7 @@ void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *for
                          force);
 }
 
-/* True if the caller's law of friction has failed in this query. */
+/* True if the caller's law of friction has failed in this query: it then leaves NaN as friction. */
 static bool has_failed(const dmb_site_force *force)
 {
     return isnan(force->friction[0]);
@@ -80,6 +80,8 @@ int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t site, dmb_contact *conta
     return dmb_contact_write(contact, &answer);
 }
 
+/* Sums of amounts over all closed contacts: normal forces as magnitudes, frictions with their signs along and around
+ * the hole. */
 int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
 {
     const int32_t status = dmb_ask(sim, sum);
@@ -123,6 +125,8 @@ static int32_t beyond(const dmb_wall_def *wall, double depth)
     return depth > wall->survey[3 * (size_t)(wall->survey_count - 1)] ? DMB_HOLE_BELOW : DMB_HOLE_SURVEYED;
 }
 
+/* World axes z up, x north, y west: inclination from the downward vertical, azimuth clockwise from north; 0 in a
+ * vertical hole. */
 static void direction(dmb_hole_point *point)
 {
     const double *t = point->tangent;

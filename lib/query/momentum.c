@@ -27,6 +27,8 @@ static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
     return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
+/* Pose and velocity of the frame at the arm [m] along body x from a node: an element's own end, or the node itself (arm
+ * 0). */
 static void carrier_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double arm, carrier *out)
 {
     double u[3];
@@ -83,6 +85,8 @@ static void add_element_mass(const dmb_element_type *type, const double d[6], co
     add_mass(B, half, far_moment, sum);
 }
 
+/* Momenta of both ends by the 12 rows of the element's mass, each in the frame of its end. Between two axial-torsional
+ * nodes only velocities along and about the axis have inertia in the equations, and so they have here. */
 static void add_element(const dmb_scene *scene, const dmb_configuration *c, uint32_t element, dmb_momentum *sum)
 {
     const dmb_element_type *type = &scene->types[scene->element_type[element]];
@@ -133,6 +137,8 @@ static void add_added_mass(const dmb_scene *scene, const dmb_configuration *c, c
     add_momentum(&at, p, sum);
 }
 
+/* Everything with inertia in the equations: elements, rigid masses (bodies, bits, tool joints, rigid pipes) and added
+ * mass of mud. */
 int32_t dmb_answer_momentum(const dmb_sim *sim, dmb_momentum *momentum)
 {
     const int32_t status = dmb_ask(sim, momentum);

@@ -84,6 +84,11 @@ static void place_in_element(const dmb_scene *scene, const dmb_pipe_map *pipe, d
     if (!(point->fraction < 1.0)) fix(point, point->node + 1, -type->arm[1]);
 }
 
+/* Where a place of a pipe is in the mesh, by its fraction of the pipe's length:
+ *
+ *     rigid pipe           fixed to its one node, at its distance from it
+ *     in the tool joint    fixed to the far node of the last element
+ *     else                 in an element; at its ends fixed to the node there */
 int32_t dmb_string_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point)
 {
     static const dmb_material_point nowhere = {0, DMB_NONE, 0.0, 0.0, 0.0, 0, 0};
@@ -195,6 +200,8 @@ static uint32_t node_after(const dmb_scene *scene, const dmb_pipe_map *pipe, uin
     return pipe->elements > 0 ? scene->element_node[pipe->element] + elements : pipe->node;
 }
 
+/* The contact point at the node behind `elements` elements of a pipe; 0: at its near end, which belongs to the pipe
+ * before it, or for the first pipe to the string itself (pipe DMB_NONE). */
 uint32_t dmb_site_after(const dmb_sim *sim, dmb_id string, uint32_t pipe, uint32_t elements)
 {
     const dmb_scene *scene = sim->scene;

@@ -48,6 +48,8 @@ static void coordinates(const dmb_sim *sim, uint32_t j, const dmb_relative *rela
     }
 }
 
+/* Forces of the joint's laws along its coordinates, as the equations apply them.
+ * None in an open joint. */
 static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -120,6 +122,7 @@ int32_t dmb_answer_multipliers(const dmb_sim *sim, dmb_id part, double multiplie
     return DMB_OK;
 }
 
+/* Equations of a joint by its state: none open, all six locked, else those of its kind. */
 static uint32_t joint_rows(const dmb_sim *sim, uint32_t j)
 {
     if (sim->joint_state[j] == DMB_JOINT_OPEN) return 0;

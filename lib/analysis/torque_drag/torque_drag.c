@@ -100,6 +100,8 @@ static int32_t find_string(request *r)
     return DMB_OK;
 }
 
+/* The string may be pulled out to any depth of its description, not run in further: pipes below the described end are
+ * unknown. */
 static int32_t check_depths(request *r)
 {
     const double slack = 1e-9 * r->soft.length;
@@ -361,7 +363,9 @@ static double misses_by(fitting *f, double friction)
     return (f->measured == DMB_MEASURED_HOOK_LOAD ? row.hook_load : row.torque) - f->value;
 }
 
-/* Bisection: hook load and torque are monotonic in the coefficient. */
+/* Bisection: hook load and torque are monotonic in the coefficient, so that the values at 0 and at the largest
+ * coefficient enclose the measured one or there is no solution. 60 halvings exhaust the digits. A string that locks up
+ * is beyond every measured value: hook load minus, torque plus infinity. */
 static int32_t bisect(fitting *f, double *friction)
 {
     double low = 0.0, high = DMB_FRICTION_MAX;
@@ -385,6 +389,8 @@ static int32_t bisect(fitting *f, double *friction)
     return DMB_OK;
 }
 
+/* With friction_by_depth the answer is a factor to the coefficients of the wall by depth, else one coefficient for the
+ * whole hole. */
 static int32_t fit(fitting *f, const dmb_torque_drag_options *options, const dmb_operation *operation, double *friction)
 {
     dmb_check check = dmb_check_of(&f->r->sim->message, "friction factor", DMB_NONE);
