@@ -2,7 +2,7 @@
 them against the sources. Conventions of the chapters (lib/theory/*.md, in the order of lib/theory/README.md):
 
     $$ ... $$ {#eq:prefix.name}          an equation, one paragraph; a prefix belongs to one chapter
-    eq:prefix.name                       its citation, in chapters, sources and tests
+    eq:prefix.name                       its citation, in chapters, sources and tests; at least one test has it
     ![Caption](figures/name.svg){#fig:name}     a figure, drawn by lib/theory/figures/name.py; cited as fig:name
     [@key]                               a work of lib/theory/references.bib
     Implemented in: `lib/x.c` (`f`, `g`), `lib/y.h` (`h`).      one paragraph of each chapter
@@ -128,6 +128,13 @@ def citation_faults(manual):
             yield f"{', '.join(places)}: no chapter defines {name}"
 
 
+def check_faults(manual):
+    places = manual.citations()
+    for name, chapter in manual.home.items():
+        if not any(place.startswith("tests/") or "/test_" in place for place in places.get(name, ())):
+            yield f"{chapter.path.name}: no test cites {name}; name it where a test checks it, or write that test"
+
+
 def defines(text, path, name):
     """True if a C function or macro, or a Python function or class of this name stands in the text."""
     if path.endswith(".py"):
@@ -238,6 +245,7 @@ def link_faults(manual):
 CHECKS = (("the index lists every chapter", chapter_faults),
           ("names of equations are unique", equation_faults),
           ("every equation cited by a chapter, a source or a test exists", citation_faults),
+          ("every equation is cited by a test", check_faults),
           ("every chapter names files and functions that exist", place_faults),
           ("files that the text names exist", path_faults),
           ("every chapter names tests that exist", test_faults),

@@ -138,8 +138,10 @@ static void a_ball_that_spins_and_rubs_gains_nothing(void **state)
     check_balls(1);
 }
 
-/* Restitutions 0.1 to 0.9 as they are given, at the steps where contacts cease to be resolved: at h w = 1.4 for the
- * exponent 1, and where K (v h/2)^(n-1) takes the place of K for others (h w = 6.0 for 1.5, 53 for 3). */
+/* Restitutions 0.1 to 0.9 as they are given, at the steps where contacts cease to be resolved (eq:contact.coarse): at
+ * h w = 1.4 for the exponent 1, and where K (v h/2)^(n-1) takes the place of K for others (h w = 6.0 for 1.5, 53 for
+ * 3).
+ */
 static void restitutions_gain_nothing(void **state)
 {
     static const double exponents[] = {1.0, 1.5, 3.0}, some_radii[] = {0.0, 0.8, 1.0};

@@ -8,6 +8,8 @@
 #include "element/beam.h"
 #include "element/beam_element.h"
 #include "element/rigid_mass.h"
+#include "math/quadrature.h"
+#include "math/se3.h"
 #include "model/section.h"
 
 /* A short stubby pipe whose stiffnesses are of one size, so that no term hides behind another. */
@@ -341,7 +343,7 @@ static void inertia_tangent_is_the_derivative_of_the_inertia_force(void **state)
     check_below("inertia tangent against differences", worst, 1e-14);
 }
 
-/* The same for a rigid mass with its centre off the axis. */
+/* The same for a rigid mass with its centre off the axis (eq:motion.rigid-mass). */
 static void rigid_mass_tangent_is_the_derivative_of_its_force(void **state)
 {
     (void)state;
@@ -471,6 +473,133 @@ static void one_element_is_exact_in_linear_bending(void **state)
     check_relative("tip rotation of one element", -kut / determinant, L * L / (2.0 * K[5]), 1e-13);
 }
 
+/* ---- Shape between the ends -------------------------------------------------------------------------------------- */
+
+/* Strain of an element with both nodes at d from each other, as a pose. */
+static void strain_at(const dmb_element_type *type, const double d[6], double e[6])
+{
+    const double qa[4] = {1.0, 0.0, 0.0, 0.0}, R[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    dmb_beam_shape shape;
+    double qb[4], span[3];
+    dmb_se3_exp_to_quat(d, qb, span);
+    assert_int_equal(dmb_beam_deform(type, qa, R, qb, span, &shape), 0);
+    dmb_beam_strain_of(type, &shape, e);
+}
+
+/* Bending share sigma of the flexibility to a force across in the plane of x and y. */
+static double straight_type(double shear_stiffness, dmb_element_type *type)
+{
+    dmb_pipe_def def = dmb_pipe_def_default();
+    def.length = 2.0;
+    for (int i = 0; i < 6; i++) def.section_stiffness[i] = i == 1 || i == 2 ? shear_stiffness : 3.0;
+    def.section_mass = 1.0;
+    dmb_element_type_of(&def, no_arm, 0.0, type);
+    return 1.0 / (1.0 + 12.0 * 3.0 / (shear_stiffness * def.length * def.length));
+}
+
+/* A chord turned by g against both end sections: mean of u' + t w' - t^2/2 over the cubic of eq:beam.cubic-slope, which
+ * closes (mean slope g) and has one shear. */
+static void turned_chord_is_as_long_as_its_cubic(void **state)
+{
+    static const double stiffness[3] = {1e6, 30.0, 2.0};
+    const dmb_gauss_rule *rule = dmb_gauss(4);
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dmb_element_type type;
+        const double sigma = straight_type(stiffness[k], &type), P = 1.0 / sigma - 1.0, g = 0.01;
+        const double d[6] = {type.length, g * type.length, 0.0, 0.0, 0.0, 0.0};
+        double e[6], slope = 0.0, stretch = 0.0, shear = 0.0;
+        for (int p = 0; p < rule->count; p++) {
+            const double x = rule->node[p], w = sigma * g * (6.0 * (x - x * x) + P), t = 6.0 * sigma * g * (x - x * x);
+            slope += rule->weight[p] * w;
+            stretch += rule->weight[p] * (t * w - 0.5 * t * t);
+            shear = fmax(shear, fabs(w - t - sigma * P * g));
+        }
+        strain_at(&type, d, e);
+        check_relative("mean slope of the cubic", slope, g, 1e-14);
+        check_below("change of its shear", shear, 1e-16);
+        check_relative("stretch of the element", e[0] / type.length, stretch, 1e-10);
+    }
+}
+
+/* End of a line of length 1 whose sections are turned by Theta (x + 1/2) + s t(x), as the coordinate y of its
+ * logarithm; t = (x^2 - 1/4)(1 + x). */
+static double sideways(double Theta, double s)
+{
+    const dmb_gauss_rule *rule = dmb_gauss(5);
+    double R[9] = {0.0}, x[3] = {0.0}, d[6];
+    for (int k = 0; k < 50; k++)
+        for (int p = 0; p < rule->count; p++) {
+            const double at = (k + rule->node[p]) / 50.0 - 0.5, t = (at * at - 0.25) * (1.0 + at);
+            x[0] += rule->weight[p] / 50.0 * cos(Theta * (at + 0.5) + s * t);
+            x[1] += rule->weight[p] / 50.0 * sin(Theta * (at + 0.5) + s * t);
+        }
+    R[0] = R[4] = cos(Theta);
+    R[3] = sin(Theta);
+    R[1] = -R[3];
+    R[8] = 1.0;
+    dmb_se3_log(R, x, NULL, d);
+    return d[1];
+}
+
+/* Integral of cos(Theta x) f(x), x from -1/2 to 1/2: of that t (kind 0), or of the rotations by a unit force. */
+static double along_the_bend(double Theta, int kind)
+{
+    const dmb_gauss_rule *rule = dmb_gauss(5);
+    double sum = 0.0;
+    for (int k = 0; k < 50; k++)
+        for (int p = 0; p < rule->count; p++) {
+            const double x = (k + rule->node[p]) / 50.0 - 0.5;
+            const double f =
+                kind == 0 ? (x * x - 0.25) * (1.0 + x) : (cos(Theta * x) - cos(0.5 * Theta)) / (Theta * Theta);
+            sum += rule->weight[p] / 50.0 * cos(Theta * x) * f;
+        }
+    return sum;
+}
+
+static double kappa(double Theta)
+{
+    return 0.5 * Theta / sin(0.5 * Theta);
+}
+
+/* Sideways motion of a bent element by small rotations of its sections (eq:beam.bent-sideways). */
+static void bent_ends_move_sideways(void **state)
+{
+    (void)state;
+    for (double Theta = 0.3; Theta < 2.0; Theta += 0.4) {
+        double f[6];
+        for (int p = 0; p < 6; p++) f[p] = sideways(Theta, 1e-2 * difference6_place[p]);
+        check_close("sideways per rotation", difference6(f, 1e-2), kappa(Theta) * along_the_bend(Theta, 0), 1e-12);
+    }
+}
+
+/* Flexibility of a slender bent element over that of a straight one: 12 kappa^2 times the integral, its series
+ * (eq:beam.bent-flexibility), and the element, whose strain counts it to the square of the bend. */
+static void flexibility_errors(double Theta, double errors[2])
+{
+    dmb_element_type type;
+    const double y = 1e-3, square = Theta * Theta;
+    double e[2][6];
+    (void)straight_type(1e12, &type);
+    for (int k = 0; k < 2; k++) {
+        const double d[6] = {type.length, k ? y : -y, 0.0, 0.0, 0.0, Theta};
+        strain_at(&type, d, e[k]);
+    }
+    const double exact = 12.0 * kappa(Theta) * kappa(Theta) * along_the_bend(Theta, 1);
+    errors[0] = fabs(1.0 + square / 30.0 + square * square / 840.0 - exact);
+    errors[1] = fabs(pow((e[1][1] - e[0][1]) / (2.0 * y), -2.0) - exact);
+}
+
+static void bent_elements_are_softer_sideways(void **state)
+{
+    double coarse[2], fine[2];
+    (void)state;
+    flexibility_errors(0.8, coarse);
+    flexibility_errors(0.4, fine);
+    check_order("error of the series", coarse[0], fine[0], 6.0, 0.1);
+    check_order("error of the element", coarse[1], fine[1], 4.0, 0.1);
+}
+
 /* The opposite quaternion is the same pose; the logarithm must not take the long way round. */
 static void sign_of_a_quaternion_does_not_matter(void **state)
 {
@@ -527,6 +656,9 @@ int main(void)
         cmocka_unit_test(mass_carries_rigid_motion_exactly),
         cmocka_unit_test(mass_matrix_is_symmetric),
         cmocka_unit_test(one_element_is_exact_in_linear_bending),
+        cmocka_unit_test(turned_chord_is_as_long_as_its_cubic),
+        cmocka_unit_test(bent_ends_move_sideways),
+        cmocka_unit_test(bent_elements_are_softer_sideways),
         cmocka_unit_test(sign_of_a_quaternion_does_not_matter),
         cmocka_unit_test(large_relative_rotation_is_refused),
     };

@@ -219,11 +219,59 @@ static void forces_are_those_of_lagrange(void **state)
     check_below("forces of inertia, of p' - ad(v)^T p - dT/dq", worst, 1e-9);
 }
 
+/* ---- The middle -------------------------------------------------------------------------------------------------- */
+
+/* Rotation of the middle, R_A exp(Theta/2), after the ends have turned for a time; and Theta then. */
+static void middle_after(const double qa[4], const double qb[4], const double w[6], double time, double at[4],
+                         double Theta[3])
+{
+    double turn[3], step[4], ends[2][4], between[4];
+    for (int k = 0; k < 2; k++) {
+        dmb_vec3_scale(time, w + 3 * k, turn);
+        dmb_quat_exp(turn, step);
+        dmb_quat_mul(k == 0 ? qa : qb, step, ends[k]);
+    }
+    dmb_quat_between(ends[0], ends[1], between);
+    dmb_quat_log(between, Theta);
+    dmb_vec3_scale(0.5, Theta, turn);
+    dmb_quat_exp(turn, step);
+    dmb_quat_mul(ends[0], step, at);
+}
+
+/* eq:curved.middle-rate, with the rate of Theta by differences as well. */
+static void rate_of_the_middle(void **state)
+{
+    const double qa[4] = {1.0, 0.0, 0.0, 0.0}, h = 1e-4;
+    uint64_t seed = 17;
+    double worst = 0.0;
+    (void)state;
+    for (int k = 0; k < 50; k++) {
+        double qb[4], half[4], q[2][4], between[4], w[6], Theta[3], to[2][3], turned[3], rate[3], bent[3], wa[3], wb[3];
+        draw(&seed, 1.0, 6, w);
+        draw(&seed, 0.8, 3, Theta);
+        dmb_quat_exp(Theta, qb);
+        middle_after(qa, qb, w, 0.0, half, Theta);
+        middle_after(qa, qb, w, -h, q[0], to[0]);
+        middle_after(qa, qb, w, h, q[1], to[1]);
+        dmb_quat_between(q[0], q[1], between);
+        dmb_quat_log(between, turned);
+        dmb_quat_rotate_inverse(half, w, wa);
+        dmb_quat_rotate(half, w + 3, wb);
+        dmb_vec3_sub(to[1], to[0], rate);
+        dmb_vec3_scale(0.5 / h, rate, rate);
+        dmb_vec3_cross(Theta, rate, bent);
+        const double angle = 0.5 * dmb_vec3_norm(Theta), b = (1.0 - cos(angle)) / (angle * angle);
+        for (int i = 0; i < 3; i++)
+            worst = fmax(worst, fabs(turned[i] / (2.0 * h) - (0.5 * (wa[i] + wb[i]) - 0.25 * b * bent[i])));
+    }
+    check_below("rate of the middle against differences [rad/s]", worst, 1e-7);
+}
+
 /* ---- Spin -------------------------------------------------------------------------------------------------------- */
 
 /* Both ends of a round element spin about their own axes: the centre line stands still, and each section has the
- * angular momentum of its rotary inertia. Largest force over m W^2 times the bow, and error of the energy over the
- * bow's. */
+ * angular momentum of its rotary inertia, since eq:curved.spin takes eq:curved.spin-defect off the energy. Largest
+ * force over m W^2 times the bow, and error of the energy over the bow's. */
 static void spin_errors(uint64_t *seed, double angle, double shear, double error[2])
 {
     static const double arm[2] = {0.0, 0.0}, W = 3.0;
@@ -340,6 +388,7 @@ int main(void)
         cmocka_unit_test(a_straight_one_has_the_constant_mass),
         cmocka_unit_test(rigid_motion_has_the_momentum_of_slices),
         cmocka_unit_test(forces_are_those_of_lagrange),
+        cmocka_unit_test(rate_of_the_middle),
         cmocka_unit_test(spin_about_the_bent_axis_has_no_inertia),
         cmocka_unit_test(mass_is_positive_definite),
         cmocka_unit_test(a_free_one_falls_with_g),

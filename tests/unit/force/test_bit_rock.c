@@ -1,5 +1,5 @@
 /* Bit-rock laws: closed forms, exact derivatives, continuity, and the memory of the cut surface. Equations:
- * eq:bit.forces, eq:bit.rate, eq:bit.regenerative, eq:bit.no-work. */
+ * eq:bit.forces, eq:bit.rate, eq:bit.rate-limit, eq:bit.regenerative, eq:bit.no-work. */
 #include "force/bit_rock.h"
 
 #include "force_test.h"
@@ -178,6 +178,28 @@ static void rate_law_derivatives(void **state)
             fabs(fabs(spin) - DMB_BIT_SPIN_FLOOR) < h[3] || fabs(spin) < h[3])
             continue;
         check_derivatives(&law, NULL, q, h, 2e-5);
+    }
+}
+
+/* A bit that only the rock brakes, by a backward Euler step of length h: J (Omega1 - Omega) + h T(Omega1) = 0 has a
+ * solution up to h = J Omega/(4 T) and none beyond (eq:bit.rate-limit). */
+static void steps_of_the_rate_law_have_a_limit(void **state)
+{
+    dmb_bit_rock_law law = coal(DMB_ROCK_RATE);
+    const double inertia = 2.0, spin = OMEGA_200_RPM;
+    result r;
+    (void)state;
+    law.wear_length = 0.0; /* the cutting part alone */
+    dmb_bit_rock_force(&law, NULL, 0.1, 0.2, 0.02, 0.0, spin, &r);
+    const double limit = inertia * spin / (4.0 * r.torque_on_bit);
+    for (int beyond = 0; beyond < 2; ++beyond) {
+        const double h = limit * (beyond ? 1.001 : 0.999);
+        double least = spin;
+        for (double part = 0.1; part < 1.0; part += 1e-3) {
+            dmb_bit_rock_force(&law, NULL, 0.1, 0.2, 0.02, 0.0, part * spin, &r);
+            least = fmin(least, inertia * (part - 1.0) * spin + h * r.torque_on_bit);
+        }
+        assert_true(beyond ? least > 0.0 : least < 0.0);
     }
 }
 
@@ -480,6 +502,7 @@ int main(void)
         cmocka_unit_test(rate_law_is_continuous),
         cmocka_unit_test(no_cutting),
         cmocka_unit_test(rate_law_derivatives),
+        cmocka_unit_test(steps_of_the_rate_law_have_a_limit),
         cmocka_unit_test(nonsense),
         cmocka_unit_test(steady_state),
         cmocka_unit_test(varying_speed),

@@ -163,7 +163,7 @@ static void places_are_searched(void **state)
     assert_in_range(feet, 1, 3);
 }
 
-/* Angles mean what the header says; a survey without bends is the straight hole. */
+/* Angles mean what the header says (eq:kinematics.hole-tangent); a survey without bends is the straight hole. */
 static void directions(void **state)
 {
     dmb_hole_station storage[3];

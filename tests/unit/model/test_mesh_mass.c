@@ -124,6 +124,7 @@ static void weight_beyond_an_arm(void **state)
     dmb_model_destroy(&model);
 }
 
+/* J about the node from J of the centre (eq:motion.rigid-mass). */
 static void rigid_mass_is_the_spatial_inertia(void **state)
 {
     dmb_rigid_mass rigid_mass = {0};

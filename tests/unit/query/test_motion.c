@@ -1,5 +1,5 @@
 /* Speeds and accelerations of places: of strings in flight, of rigid ones exactly, of flexible ones against differences
- * of what the sim did; of pipes on the axis of a curved hole. */
+ * of what the sim did (eq:kinematics.velocity); of pipes on the axis of a curved hole (eq:kinematics.path-velocity). */
 #include "close.h"
 #include "rig.h"
 

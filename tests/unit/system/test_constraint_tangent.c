@@ -1,7 +1,7 @@
 /* The equations of joints, couplings, joint drives and callbacks at states off the constraints: Jacobian, rates and
  * convective parts against differences of their values, and the tangent of all joint forces against differences of the
  * residual. Every kind of joint stands twice in the scene: on the ground and in a chain of bodies. Checks
- * eq:joints.rows and eq:joints.relative-tangent. */
+ * eq:motion.constraints, eq:joints.rows and eq:joints.relative-tangent. */
 #include <stdio.h>
 #include <string.h>
 

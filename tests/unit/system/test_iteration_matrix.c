@@ -49,7 +49,8 @@ static void matrix_is_the_derivative_by_the_increments(void **state)
     check_below("iteration matrix against differences", worst, 1e-9);
 }
 
-/* After a correction of size z the extrapolated stress is that of the moved element up to z^2. */
+/* After a correction of size z the extrapolated stress is that of the moved element up to z^2 (eq:beam.extrapolation,
+ * eq:static.extrapolated). */
 static double extrapolation_error(double size)
 {
     const full_rig_choice choice = {DMB_FRICTION_NONE, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 1, 0};
