@@ -33,7 +33,7 @@ static void check_line(dmb_check *check, const dmb_motor *motor)
     dmb_check_within(check, "table_pressure", motor->table_pressure, 0.0, 0.0);
 }
 
-/* A pressure is told of both or of none: torque is in proportion to it. */
+/* A pressure needs that of the table: torque is in proportion to it. */
 static void check_table(dmb_check *check, const dmb_motor *motor)
 {
     const uint32_t n = motor->table_count;

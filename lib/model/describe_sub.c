@@ -224,7 +224,7 @@ static int32_t refuse_bit(dmb_model *model, uint32_t string, uint32_t bit)
     return DMB_ERR_ORDER;
 }
 
-/* A string goes on in one place, and its bit is at the very end. */
+/* A string is continued by one sub at most, and has its bit at the end of the last part. */
 static int32_t check_end(dmb_model *model, uint32_t string)
 {
     const int32_t status = dmb_string_is_open(model, "sub", string);

@@ -78,6 +78,7 @@ static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
     return push(mesh, &constraint);
 }
 
+/* A coupling has one equation between the coordinates of its joints; its columns are those of all their nodes. */
 static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
 {
     dmb_constraint constraint = {.kind = DMB_OF_COUPLING, .index = i, .rows = 1};
@@ -86,6 +87,8 @@ static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
     return push(mesh, &constraint);
 }
 
+/* A motion drive of a joint is an equation of its own. Other drives are forces, and a motion drive at a node prescribes
+ * a row instead. */
 static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_scene_drive *drive = drive_at(mesh, i);
@@ -197,6 +200,7 @@ static int32_t number_clusters(dmb_mesh *mesh, uint32_t *parent, uint32_t *clust
     return DMB_OK;
 }
 
+/* Nodes of the clusters side by side, ascending in each; columns in the same order. */
 static int32_t list_nodes(dmb_mesh *mesh, const uint32_t *cluster)
 {
     uint32_t first = 0, column = 0;

@@ -303,7 +303,7 @@ static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *m
     return add_mud(mesh, map->node, &part);
 }
 
-/* A ring surrounds the pipe that goes on through it: its own volume and mass are those outside the pipe's diameter. */
+/* A ring surrounds the pipe that passes through it: its own volume and mass are those outside the pipe's diameter. */
 static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t string, uint32_t number)
 {
     const dmb_ring_range rings = dmb_mesh_rings_of(mesh, string, number);

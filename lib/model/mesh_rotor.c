@@ -71,7 +71,7 @@ static bool is_round(const dmb_mesh *mesh, const dmb_mesh_rotor *rotor, const do
            mass_of(mesh, rotor->rotor.node)->mass * dmb_vec3_norm_squared(d) <= DMB_BALANCED * DMB_BALANCED * mean;
 }
 
-/* J <- G^T J G, and the columns of axes likewise, with the rotation G in the plane p, q that makes J_pq 0 (Jacobi
+/* J <- G^T J G, and the columns of axes rotated too, with the rotation G in the plane p, q that makes J_pq 0 (Jacobi
  * 1846). */
 static void rotate_plane(double J[9], double axes[9], int p, int q)
 {

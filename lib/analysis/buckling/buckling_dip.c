@@ -169,7 +169,7 @@ static int is_minimum(const dmb_dip *dip, double next)
            dip->last.value < DMB_DIP_SHALLOW * dip->most;
 }
 
-/* After a minimum was kept the path goes on: it counts as soon as the value has risen by DMB_DIP_RISE (1), and is
+/* After a minimum was kept the path continues: it counts as soon as the value has risen by DMB_DIP_RISE (1), and is
  * dropped if the value falls below it. The minimum is searched among three consecutive points, of which the middle one
  * is lowest. */
 int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare)

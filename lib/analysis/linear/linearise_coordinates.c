@@ -102,6 +102,8 @@ void dmb_linear_add_whole_joints(dmb_linear *linear, double factor)
         dmb_linear_add_array(factor, all[m]->joints, count, linear->whole_joints + m * count);
 }
 
+/* Clears rows or columns of constrained rows from all three matrices, with the constraints' parts, after they were
+ * kept. */
 void dmb_linear_hold(dmb_linear *linear, int columns)
 {
     const dmb_scene *scene = &linear->scene;
@@ -191,6 +193,7 @@ int32_t dmb_linear_make_coordinates(dmb_linear *linear)
     return DMB_OK;
 }
 
+/* d = R z */
 void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d)
 {
     for (uint32_t r = 0; r < linear->rows; r++) {
@@ -200,6 +203,7 @@ void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d)
     }
 }
 
+/* g = R^T f */
 void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g)
 {
     memset(g, 0, linear->coordinates * sizeof(double));
@@ -208,6 +212,7 @@ void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g)
             g[linear->column[i]] += linear->value[i] * f[r];
 }
 
+/* Sum of the amounts of the terms of R^T f: what rounding of g is compared with. */
 void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g)
 {
     memset(g, 0, linear->coordinates * sizeof(double));

@@ -1,6 +1,15 @@
-/* Rows of force of each kind of input. A force at a place is the transpose of the motion there (virtual work), so that
- * receptances are reciprocal to rounding; forces of the scene are the difference of the residual with their factor, in
- * which it is linear. */
+/* Rows of force of each kind of input, and the law by which their size depends on the frequency:
+ *
+ *     drive of a force, load, bit load      force      derivative of the residual by target or factor
+ *     drive with a controller               control    force per unit of its output; the law has its gains
+ *     drive of a motion                     motion     displacements that move its coordinate by 1
+ *     input of control.h                    as its drive, load or bit
+ *     force at a place                      force      transposed motion of the place
+ *     unbalance, eccentric masses           inertia    force over w^2; component RX: turning across the axis
+ *     friction of the whole string          force      normal force times a unit coefficient
+ *
+ * A force at a place is the transpose of the motion there (virtual work), so that receptances are reciprocal to
+ * rounding; forces of the scene are the difference of the residual with their factor, in which it is linear. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -102,7 +111,7 @@ static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
     const dmb_constraint *constraint = r->copy->scene->constraints + drive->constraint;
     const dmb_cluster *cluster = r->copy->scene->clusters + constraint->cluster;
     const dmb_partition partition = dmb_cluster_partition(r->copy, constraint->cluster);
-    double *x = r->out->im; /* long enough for the while: as many as the cluster has rows */
+    double *x = r->out->im; /* im is free here, and has at least as many numbers as the rank */
     uint32_t place = DMB_NONE;
     for (uint32_t k = 0; k < partition.rank; k++) {
         x[k] = 0.0;

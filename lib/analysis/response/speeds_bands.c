@@ -82,7 +82,7 @@ static void visit(search *s, double speed, double severity, uint32_t order, uint
     s->open.frequency = s->curves[order].order * speed / DMB_TWO_PI;
 }
 
-/* A band that reaches into the one before goes on in it. */
+/* A band that overlaps the one before extends it. */
 static void end_band(search *s, double speed)
 {
     s->open.high = fmin(speed * (1.0 + s->options->margin), s->options->speed_high);

@@ -308,6 +308,8 @@ static void read_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_r
         if (isnan(p->rates[i])) p->rates[i] = 0.0; /* an unset input: all other numbers are finite */
 }
 
+/* All checks come before memory is reserved, and nothing fails after the worker exists. The worker keeps no ledger of
+ * energy: companion steps are no part of a run. */
 static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, dmb_sensitivity **out)
 {
     int32_t status = check_count(sim, count);

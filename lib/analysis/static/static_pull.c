@@ -1,9 +1,8 @@
 /* Equilibrium of a string that is pulled into the bends of its hole: from a soft wall that is hardened. The guess by
  * tension (static_guess.c) has closed the contacts of its bends.
  *
- * Order: softest wall 10 clearances deep, then 1 clearance. Failure on the way to the hard wall ends that attempt; a
- * search that cannot be continued at all (dmb_is_final) ends both. */
-
+ * Order: softest wall 10 clearances deep, then 1 clearance. Failure at any softness ends that attempt; a search that
+ * cannot be continued at all (dmb_is_final) ends both. */
 #include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
 
