@@ -125,8 +125,7 @@ static void velocity_at(const string_end *b, double velocity[6])
     dmb_quat_rotate_inverse(b->end.q, velocity + 3, velocity + 3);
 }
 
-/* ---- The end of the pipes so far
- * ------------------------------------------------------------------------------------- */
+/* ---- The end of the pipes so far --------------------------------------------------------------------------------- */
 
 static int32_t check_string(dmb_model *model, dmb_id string, double length, string_end *b)
 {

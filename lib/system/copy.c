@@ -1,4 +1,7 @@
-/* Copy of a sim for analyses; the sim is unchanged. */
+/* Copy of a sim for analyses; the sim is unchanged. The copy is of the dense scene if the sim's has sparse components,
+ * because analyses need independent coordinates. Order: block, options, own scene, then the state; its partition
+ * replaces the one that the preparation has chosen. Sparse components have rows chosen only, so a dense copy of them
+ * chooses its own. */
 #include "system/system.h"
 
 #include <string.h>

@@ -123,8 +123,7 @@ void dmb_actuators_accept(const dmb_evaluation *evaluation)
     }
 }
 
-/* ---- Breakpoints
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Breakpoints ------------------------------------------------------------------------------------------------- */
 
 #define DMB_JUMP_ROUNDING 1e-12 /* [-] relative jump of a command that counts as rounding */
 

@@ -43,7 +43,8 @@ int dmb_sites_have_mean(const dmb_sim *sim)
  */
 #define DMB_SITE_FAR 1e6
 
-/* [kg/m] (k h + c) h per metre of wall, k = K (v h/2)^(n-1), for a normal speed v [m/s] at touch. */
+/* [kg/m] Left side of eq:contact.coarse per metre of wall and without 1/m: (k h + c) h with k = K (v h/2)^(n-1), for a
+ * normal speed v [m/s] at touch. */
 static double coarseness(const dmb_normal_law *law, double speed, double h)
 {
     const int by_rate = law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT;

@@ -32,6 +32,7 @@ typedef struct argument {
 
 /* ---- From the scene to the question ------------------------------------------------------------------------------ */
 
+/* Without rates, in statics, velocities are 0 whatever the state has. */
 static void read_place(const dmb_scene *scene, const dmb_configuration *c, int rates, uint32_t i, argument *a,
                        dmb_caller_question *ask)
 {
@@ -341,6 +342,8 @@ double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration 
     return sum;
 }
 
+/* A law with a state is compared at step length 0 and at one with which its state moves: both parts of the total
+ * derivative. */
 int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force)
 {
     argument a[DMB_CONSTRAINT_PLACES];

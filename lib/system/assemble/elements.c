@@ -183,8 +183,7 @@ static int32_t assemble_beams(dmb_evaluation *evaluation, const dmb_batch *batch
     return DMB_OK;
 }
 
-/* ---- Axial-torsional elements on the hole's axis: axial-torsional nodes
- * --------------------------------------------------------- */
+/* ---- Axial-torsional elements ------------------------------------------------------------------------------------ */
 
 /* Axial-torsional elements: K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes
  * (kernel/lanes_axial_torsional.h). */
@@ -250,8 +249,7 @@ static void assemble_axial_torsional_elements(dmb_evaluation *evaluation, const 
             axial_torsional_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
 }
 
-/* ---- A beam with one six-DOF and one axial-torsional node: the axial-torsional side is seen through its two columns
- * ---------------------- */
+/* ---- Mixed elements ---------------------------------------------------------------------------------------------- */
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
@@ -261,6 +259,8 @@ typedef struct mixed_side {
     uint32_t rows;
 } mixed_side;
 
+/* Both kinds of node as a side of a beam: pose, twist and acceleration in body axes, and the columns J (6, rows) that
+ * take rows to twists; of a six-DOF node the identity. */
 static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed_side *side)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -380,6 +380,8 @@ DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t
     return DMB_OK;
 }
 
+/* Elements are in batches of one kind (model/mesh). Elements fail by too large a relative rotation of their ends only
+ * (DMB_ERR_ROTATION, with the number of the element): eq:kinematics.log-rotation ends at pi. */
 static int32_t assemble_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     int32_t status = DMB_OK;

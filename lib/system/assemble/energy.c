@@ -105,6 +105,7 @@ double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuratio
     return 0.5 * (dmb_vec6_dot(m.va, m.pa) + dmb_vec6_dot(m.vb, m.pb));
 }
 
+/* Axial, torsional and lateral part; the last is what remains, rotary inertia of bending included. */
 void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double parts[3])
 {
@@ -222,6 +223,7 @@ double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *config
     return sum;
 }
 
+/* DMB_NONE without strain. */
 uint32_t dmb_most_strained(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     double most = 0.0;
@@ -267,7 +269,8 @@ static double bent_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum;
 }
 
-/* -m g.u - g.((R - R0) b) */
+/* -m g.u - g.((R - R0) b). Zero in the described pose, so that the sum keeps its digits in a deep hole. The
+ * weight of an axial-torsional node acts on its axis. */
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     double sum = 0.0;

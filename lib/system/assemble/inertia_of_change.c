@@ -1,3 +1,14 @@
+/* Inertia forces M a of a change a of the accelerations, by a diagonal mass: part of the residual that the initial
+ * guess of a step would leave (integrator/prediction), which needs a size and no more. One pass without a factorisation
+ * or an evaluation.
+ *
+ *     row              lumped mass of an element's end
+ *     --------------   ---------------------------------------------------------------------
+ *     x, rotation x    sum of its row in eq:beam.axial-mass: half of the element
+ *     y, z             sum of the two entries by displacements in eq:beam.mass
+ *     rotation y, z    the diagonal entry of eq:beam.mass alone
+ *
+ * Rigid masses count with mass and moments about the node; first moments and products are left out. */
 #include <string.h>
 
 #include "system/assemble/assemble.h"

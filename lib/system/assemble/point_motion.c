@@ -163,6 +163,8 @@ static uint32_t column_of(const dmb_scene *scene, const dmb_force_tangent *tange
     return c % 3 != 0 ? DMB_NONE : tangent->column[i] + c / 3;
 }
 
+/* Values by the components of both nodes of a point, into the columns of the force; an axial-torsional node has x and
+ * rx alone. */
 void dmb_force_tangent_columns(const dmb_scene *scene, const dmb_force_tangent *tangent, const dmb_point_motion *motion,
                                const double values[12], double *row)
 {
@@ -238,7 +240,12 @@ static void add_to_chain(const dmb_evaluation *evaluation, int by, double factor
     add_block(layout, tangent, factor, high, low, lower);
 }
 
-/* Requires that the constraint has the same nodes in the same order. */
+/* Requires that the constraint has the same nodes in the same order.
+ *
+ *     constraint     storage                    displacement parameters (T6 of eq:kinematics.tangent-pose)
+ *     ------------   ------------------------   ---------------------------------------------------------
+ *     DMB_NONE       blocks of the chain        diagonal blocks later with their node, others here
+ *     a constraint   constraint_tangent         here */
 void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, int by, dmb_force_tangent *tangent)
 {
     dmb_sim *sim = evaluation->sim;

@@ -224,7 +224,9 @@ static void pull(dmb_sim *sim, const dmb_point_motion *point, const double n[3],
     dmb_point_apply(sim, point, w);
 }
 
-/* Couples of bodies that turn (dmb_bounce_close_gap); points inside elements have none. */
+/* Couples of bodies that turn (dmb_bounce_close_gap); points inside elements have none. J: gradient that the mean force
+ * had, at both nodes. The couples are the difference that closes the balance of energy of bodies that turn within the
+ * step (eq:unilateral.turning). */
 static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *end, const mean_point point[2],
                       double tension)
 {
@@ -298,6 +300,13 @@ static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion
     return own.heat - damper * m->rate;
 }
 
+/*     step                    force along the gradient of      part
+ *     ---------------------   ------------------------------   ------------------------------
+ *     without a mean force    the end of the step              elastic and damper
+ *     with a mean force       start and end (mean_point)       elastic, and a damper of one side
+ *                             the end of the step              a damper of both sides
+ *
+ * Power: the elastic part changes the potential by -tension l' - heat, the rest is heat of dampers. */
 static void assemble_spring(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;

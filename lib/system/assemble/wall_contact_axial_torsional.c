@@ -12,6 +12,8 @@ typedef struct side_load {
     double N, direction[3], tangent[3];
 } side_load;
 
+/* Across the axis weight g m and tension in the bend T k balance the wall (eq:drilling.wall-force): N = |m (g - (g.t)
+ * t) + T l k| over the length l of the contact point, outward along that vector. */
 static void side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_axial_torsional_site *site,
                        double tension, side_load *out)
 {

@@ -101,6 +101,7 @@ void dmb_assemble_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_w
     if (first < scene->site_count) press_run(evaluation, first, scene->site_count, args);
 }
 
+/* Axes of a contact point in which its force is: of its node, or of its section (eq:beam.section-pose). */
 void dmb_site_axes(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double R[9])
 {
     if (!dmb_is_inside(scene, s)) {
@@ -112,6 +113,8 @@ void dmb_site_axes(const dmb_scene *scene, const dmb_configuration *configuratio
     memcpy(R, motion.R, sizeof motion.R);
 }
 
+/* The wrench at the point becomes map^T w on the nodes, with equal power; on a node the map is the shift by the offset.
+ */
 void dmb_site_add_wrench(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double factor,
                          const double w[6], double *rows)
 {

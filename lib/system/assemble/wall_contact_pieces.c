@@ -10,6 +10,7 @@ typedef struct wall_chunks {
     uint32_t count, pieces;
 } wall_chunks;
 
+/* A boundary between chunks moves behind the points of one node: two threads would add to the same rows otherwise. */
 static uint32_t begin_of(const wall_chunks *in, uint32_t piece)
 {
     const dmb_site *sites = in->all->sites;
@@ -49,7 +50,9 @@ static void add_sums(const dmb_chunk_sums *sums, dmb_wall_args *args)
     args->friction += sums->friction;
 }
 
-/* Contact points of strings are ordered by node; those of bodies are last. */
+/* Contact points of strings are ordered by node; those of bodies are last. Sums of chunks are added in their order, so
+ * that the result does not depend on the number of threads; the points of bodies, which come last, are computed in one
+ * piece. */
 void dmb_press_sites(const dmb_sim *sim, dmb_wall_args *args)
 {
     const dmb_kernels *kernels = sim->scene->kernels;

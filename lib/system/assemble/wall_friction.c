@@ -5,6 +5,7 @@
 
 #include "sim/node.h"
 
+/* `site` counts contact points of six-DOF nodes first, then those of axial-torsional nodes. */
 const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *c, uint32_t site,
                                                  dmb_friction_law *local)
 {
@@ -17,6 +18,9 @@ const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const d
     return local;
 }
 
+/* Without smoothing and without the peak of a bristle law, for steady states and for open points, which have no
+ * bristle.
+ */
 dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
 {
     dmb_friction_law sliding = *law;
@@ -46,6 +50,12 @@ void dmb_friction_accept(const dmb_sim *sim)
                     sim->now.axial_torsional_bristle + law->states * (size_t)p);
 }
 
+/*     law           force
+ *     -----------   ------------------------------------------------------------------
+ *     NONE          0
+ *     callback      its function with a step of length 0; the new state is discarded
+ *     bristle       eq:friction.bristle with a step of length 0
+ *     other         eq:friction.smooth of the present slip */
 void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out)
 {
     const double N = out->normal_force, *slip = out->slip;

@@ -15,6 +15,7 @@
 #include "kernel/kernels.h"
 #include "math/se3.h"
 
+/* Rotors are sorted by node: bisection. */
 uint32_t dmb_rotor_on(const dmb_scene *scene, uint32_t node)
 {
     uint32_t first = 0, end = scene->rotor_count;
@@ -105,7 +106,9 @@ double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-/* Computes O, P(h), and pose and motion of the start in the axes reached by P(h). */
+/* Computes O, P(h), and pose and motion of the start in the axes reached by P(h). W is the part of the spin along the
+ * axis of the rotor; the rest of v is the slow precession. The order matters: V0' and A0 need ad(O) v of the full
+ * velocity before it is carried, and pose and motion are carried by the same P(h). */
 static void begin(const dmb_sim *sim, uint32_t rotor, double h)
 {
     const dmb_scene_rotor *of = sim->scene->rotors + rotor;
@@ -151,6 +154,7 @@ void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_args *args)
     }
 }
 
+/* d v1' = (mass_factor I - velocity_factor ad(O)) dz: the first part is in the corrections of all rows already. */
 void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {
@@ -164,6 +168,7 @@ void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_args *args)
     }
 }
 
+/* Not H0 exp z as of other nodes: the travel h O has been applied to the start of the step. */
 void dmb_rotors_place(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {

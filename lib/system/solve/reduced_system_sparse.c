@@ -1,5 +1,14 @@
-/* Sparse components in the reduced system (eq:joints.saddle; form and scaling: solve.h). Rows of multipliers stand
- * behind those of the node in the block to which their constraint belongs, in the order of sparse_slot. */
+/* Sparse components in the reduced system (eq:joints.saddle; form and scaling: solve.h). Multipliers are eliminated
+ * with the node of their constraint's block, in the order of sparse_slot:
+ *
+ *     block of a node      columns of the node   of its multipliers
+ *     -----------------    -------------------   ------------------
+ *     rows of the node     S                     B^T D
+ *     its multipliers      D B                   0
+ *
+ * Rows of a constraint between two nodes thus are in the block of one of them and in the off-diagonal blocks to the
+ * other, which the pattern of the scene provides. A body at rest that joints alone hold has S = 0, hence `hold`. LU
+ * factors exchange rows inside a block. */
 #include "system/solve/solve.h"
 
 #include "system/constrain/constrain.h"
@@ -65,6 +74,7 @@ static double *block_of(const dmb_sim *sim, uint32_t i, uint32_t j)
     return sim->reduced_value + dmb_block_pattern_offset(&sim->scene->pattern, i, j);
 }
 
+/* Tangent of joint forces and of B^T lambda. Constrained columns have weight 0 and stay as they are. */
 static void put_tangent(dmb_sim *sim, const dmb_constraint *c)
 {
     const dmb_scene *scene = sim->scene;
@@ -100,7 +110,7 @@ static void put_row(dmb_sim *sim, const dmb_constraint *c, const double *b, doub
     }
 }
 
-/* S += factor b^T b */
+/* S += factor b^T b. B^T B times a stiffness: changes no solution, since B z = 0. */
 static void hold_row(dmb_sim *sim, const dmb_constraint *c, const double *b, double factor)
 {
     const dmb_scene *scene = sim->scene;
