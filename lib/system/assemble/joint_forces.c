@@ -99,7 +99,14 @@ static void take_own(dmb_evaluation *evaluation, uint32_t l, coordinate_forces *
 }
 
 /* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. Forces
- * are positive along growing coordinates. */
+ * are positive along growing coordinates.
+ *
+ *     part of the law     power goes to
+ *     -----------------   --------------------------------------
+ *     spring, stop        potential (mean forces less their heat)
+ *     damper              damping
+ *     friction            friction
+ *     damper of a stop    impact */
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
     for (int i = 0; i < 6; i++) {

@@ -268,7 +268,15 @@ void dmb_stuck_start(dmb_sim *sim, uint32_t i)
     sim->stuck_held[i] = stuck->input != DMB_NONE ? sim->input_value[stuck->input] > 0.5 : stuck->initially;
 }
 
-/* Setting what is set already keeps the anchor, and with it the force. */
+/* Setting what is set already keeps the anchor, and with it the force.
+ *
+ *     by                            from -> to        anchor         energy of the springs
+ *     ---------------------------   ---------------   ------------   ---------------------------------
+ *     dmb_stuck_start               -> described      pose at 0      0
+ *     an input, 0 to 1              free -> stuck     present pose   0
+ *     an input, 1 to 0              stuck -> free     kept           counted as loss (dmb_stuck_lose)
+ *     release (dmb_stuck_let_go)    stuck -> free     kept           counted as loss; its input becomes 0
+ *     state transfer                as in the other   converted      as in the other */
 void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held)
 {
     if (sim->stuck_held[i] == held) return;

@@ -14,6 +14,18 @@
 
 #include "constraint/partition.h"
 
+/* One storage for all tasks, in this order within an evaluation:
+ *
+ *     call                      rows and columns                     result
+ *     -----------------------   ----------------------------------   ------------------------------------------------
+ *     dmb_sparse_choose         all active rows, cluster_weight      rows kept, quality; when the partition is chosen
+ *     dmb_sparse_factor         chosen rows, cluster_metric          factors, near-redundant rows noted; places of
+ *                                                                    the rows first (dmb_sparse_note)
+ *       drop_near_redundant     without these                        projections of speeds and accelerations
+ *     dmb_sparse_project        a = 0, d given                       move, read by dmb_sparse_get
+ *     dmb_sparse_balance        d = 0, a = W (residual + B^T f)      change of the multipliers f
+ *
+ * The metric lets displacements absorb more of a projection than rotations of bodies (dmb_clusters_weigh). */
 dmb_block_signed dmb_sparse_matrix(const dmb_sim *sim)
 {
     const dmb_block_signed matrix = {sim->sparse_value, sim->sparse_size,   sim->sparse_plus,
@@ -352,8 +364,7 @@ void dmb_sparse_balance(dmb_sim *sim, int given)
     add_all_forces(sim, sim->residual, sim->scale_row);
 }
 
-/* ---- Violation ------------------------------------------------------------------------------------------------------
- */
+/* ---- Violation --------------------------------------------------------------------------------------------------- */
 
 double dmb_sparse_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row)
 {
