@@ -22,6 +22,9 @@
  * invariant. */
 #define DMB_KRYLOV_CLOSED 1e-13
 
+/* A residual that another extension leaves above this fraction is of a crowd of values, which it does not resolve. */
+#define DMB_KRYLOV_CROWD 0.1
+
 /* The space grows by at least this fraction before convergence is checked again. */
 enum { DMB_KRYLOV_GROWTH = 12 };
 
@@ -37,7 +40,7 @@ typedef struct basis {
     double *work; /* shape (2 length) */
     /* of the last projection */
     double *matrix, *re, *im, *S, *lapack;
-    uint32_t *order; /* values by descending modulus, without those of im < 0 */
+    uint32_t *order; /* values by descending modulus, without those of im < 0 and those left out */
     size_t values;   /* length of order */
 } basis;
 
@@ -123,7 +126,7 @@ static void sort(basis *b)
 {
     b->values = 0;
     for (uint32_t i = 0; i < b->processed; i++) {
-        if (b->im[i] < 0.0) continue;
+        if (b->im[i] < 0.0 || (b->A->positive && !(b->re[i] > 0.0))) continue;
         size_t k = b->values++;
         for (; k > 0 && modulus(b, b->order[k - 1]) < modulus(b, i); k--) b->order[k] = b->order[k - 1];
         b->order[k] = i;
@@ -187,6 +190,22 @@ static int have_converged(const basis *b, uint32_t wanted, double tolerance)
     return 1;
 }
 
+/* First value that has not converged, and its residual at the last check. */
+typedef struct crowd {
+    uint32_t value;
+    double residual;
+} crowd;
+
+/* 1: the first value that has not converged has hardly improved since the last check. */
+static int is_crowded(const basis *b, uint32_t wanted, double tolerance, crowd *last)
+{
+    const crowd now = {converged(b, wanted, tolerance), 0.0};
+    if (b->A->partly != 1 || b->A->most == 0 || now.value == wanted || now.value >= b->values) return 0;
+    const crowd before = *last;
+    *last = (crowd){now.value, residual(b, b->order[now.value])};
+    return before.value == now.value && last->residual > DMB_KRYLOV_CROWD * before.residual;
+}
+
 /* Number of values, all converged, that include `enough` values beyond the two bounds; 0 if there are fewer. */
 static uint32_t enough_converged(const basis *b, uint32_t wanted, double tolerance)
 {
@@ -233,6 +252,7 @@ static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
     const size_t end = smaller(b->A->dimension, b->limit - start - 2);
     const uint32_t wanted = *count, first = b->A->enough > 0 ? b->A->enough : wanted;
     size_t target = smaller(end, first + (b->A->symmetric ? 0 : first) + 3 * start + 2), confirmed = SIZE_MAX;
+    crowd last = {UINT32_MAX, 0.0};
     for (;;) {
         int32_t status = extend(b, target, start);
         if (status >= 0) status = project(b);
@@ -258,7 +278,7 @@ static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
             }
         }
         if (status < 0) return status;
-        if (target == end) return DMB_ERR_NO_CONVERGENCE;
+        if (target == end || is_crowded(b, wanted, tolerance, &last)) return DMB_ERR_NO_CONVERGENCE;
         const size_t more = 2 * (size_t)start + 2; /* the cost of a projection is cubic in the size of the space:
                                                       therefore the space grows by a fraction of it */
         target = smaller(end, target + (target / DMB_KRYLOV_GROWTH > more ? target / DMB_KRYLOV_GROWTH : more));
@@ -342,7 +362,7 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
 {
     basis b;
     store s = {NULL, 0};
-    double next = 0.0;
+    double next = 0.0, bound = 0.0;
     memset(&b, 0, sizeof b);
     memset(out, 0, sizeof *out);
     b.A = A;
@@ -356,12 +376,15 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
     if (status >= 0) status = search(&b, &wanted, start, tolerance);
     if (status == DMB_ERR_NO_CONVERGENCE && A->partly && b.values > 0) {
         const uint32_t last = (uint32_t)smaller(wanted, b.values) - 1;
+        const uint32_t first = (uint32_t)smaller(converged(&b, wanted, tolerance), last);
         next = modulus(&b, b.order[last]);
+        bound = modulus(&b, b.order[first]) + residual(&b, b.order[first]);
         if (A->partly == 1) wanted = converged(&b, wanted, tolerance);
         if (wanted > 0 || A->counted) status = DMB_OK;
     }
     if (status >= 0) status = answer(&b, wanted, out);
     out->next = next;
+    out->bound = bound;
     close_basis(&b, &s);
     return status;
 }

@@ -21,11 +21,14 @@ typedef struct dmb_operator {
     void (*apply)(void *context, const double *x, const double *Gx, double *y); /* y = A x */
     void (*draw)(void *context, uint64_t *seed, double *x);                     /* a random vector of the space */
     int32_t (*go_on)(void *context); /* may be NULL: called before each vector, < 0 ends the search */
-    size_t most;                     /* largest number of vectors in the basis, 0: default of dmb_krylov_largest */
+    size_t
+        most; /* largest number of vectors in the basis, and if `partly`, the search also ends once more vectors hardly
+                 reduce the residual of the first value that has not converged; 0: default of dmb_krylov_largest */
     int32_t counted; /* 1: the caller counts the values, so that no random vector is appended to confirm them */
     uint32_t enough; /* the search also ends if this number of values lies beyond these two bounds, < 0 and > 0; 0:
                         unused. Symmetric only */
     double beyond[2];
+    int32_t positive; /* 1: values <= 0 are left out. Symmetric only */
 } dmb_operator;
 
 typedef struct dmb_krylov {
@@ -33,6 +36,8 @@ typedef struct dmb_krylov {
     uint32_t applications; /* of the operator */
     double *re, *im;       /* values, descending modulus, shape (count) */
     double next;   /* estimated modulus of value number `wanted` if fewer converged; 0 if there is no estimate */
+    double bound;  /* of the modulus of the first value that has not converged, if fewer than wanted have: its estimate
+                      and its residual; 0 if there is no estimate */
     double *x, *y; /* vectors x + i y, of norm 1 in the metric, shape (count, length); y NULL if symmetric */
     dmb_allocator allocator;
     void *block;

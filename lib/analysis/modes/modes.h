@@ -51,8 +51,11 @@ typedef struct dmb_mode_search {
     double window[2]; /* [1/s2] ends the iteration once `enough` modes with eigenvalues inside have converged */
     uint32_t enough;  /* 0: no such end */
     double definite;  /* [1/s2] no eigenvalue is known below minus this; 0: not known */
+    int32_t above;    /* 1: an iteration returns only modes of eigenvalues above its shift */
     double reach;     /* [1/s2] of the last symmetric iteration: estimated distance of the last mode wanted from the
                          shift, if fewer converged; 0: no estimate */
+    double next;      /* [1/s2] of the same iteration: lower bound of the distance of an eigenvalue that has not
+                         converged, from the estimate of the first one; 0: no estimate */
     int32_t apart; /* 1: the motions are uncoupled, r^T K = 0, C r = 0, r^T C = 0, and projected out of the iteration */
 } dmb_mode_search;
 
@@ -143,6 +146,8 @@ int64_t dmb_modes_count_below(const dmb_mode_search *search, double *square, dou
 /* Adds all modes of eigenvalues from <= s^2 < to of a symmetric problem, chunk by chunk, each with the number of modes
  * given by counts. DMB_ERR_NO_CONVERGENCE, _SINGULAR, _NO_MEMORY. */
 int32_t dmb_modes_squares(dmb_mode_search *search, double from, double to);
+/* Keeps, of the modes from number `first` on, those of eigenvalues from <= s^2 < to; result: their number. */
+uint32_t dmb_modes_keep_squares(dmb_modes *modes, uint32_t first, double from, double to);
 /* All modes of low to high [Hz] and some at its edges, chunk by chunk: of symmetric problems, and of general ones.
  * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _TOO_LARGE, _NO_MEMORY. */
 int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high);

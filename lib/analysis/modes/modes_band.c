@@ -49,6 +49,19 @@ static double square_of(const dmb_modes *modes, uint32_t i)
     return s[0] > 0.0 ? -s[0] * s[0] : s[1] * s[1];
 }
 
+uint32_t dmb_modes_keep_squares(dmb_modes *modes, uint32_t first, double from, double to)
+{
+    uint32_t kept = first;
+    for (uint32_t i = first; i < modes->count; i++) {
+        const double square = square_of(modes, i);
+        if (square < from || square >= to) continue;
+        if (kept != i) dmb_modes_exchange(modes, kept, i);
+        kept++;
+    }
+    modes->count = kept;
+    return kept - first;
+}
+
 int64_t dmb_modes_count_below(const dmb_mode_search *search, double *square, double aside)
 {
     for (int i = 0; i < 4; i++, *square += aside) {
@@ -63,20 +76,6 @@ static int is_narrow(const interval *piece, double part, const dmb_mode_search *
 {
     return piece->to - piece->from <=
            part * fmax(fabs(piece->from), fabs(piece->to)) + DMB_NARROW_NOISE * search->noise;
-}
-
-/* Keeps the modes from `first` on that are in the interval; result: their number. */
-static int64_t keep_squares(dmb_modes *modes, uint32_t first, const interval *in)
-{
-    uint32_t kept = first;
-    for (uint32_t i = first; i < modes->count; i++) {
-        const double square = square_of(modes, i);
-        if (square < in->from || square >= in->to) continue;
-        if (kept != i) dmb_modes_exchange(modes, kept, i);
-        kept++;
-    }
-    modes->count = kept;
-    return (int64_t)kept - first;
 }
 
 /* Densest part of a chunk: the part that contains at least this fraction of the eigenvalues is halved until neither
@@ -121,7 +120,7 @@ static int32_t search_interval(dmb_mode_search *search, const interval *piece, i
     }
     search->enough = 0;
     if (status < 0 && status != DMB_ERR_NO_CONVERGENCE) return status;
-    if (status >= 0 && keep_squares(modes, first, piece) == (int64_t)there) return 1;
+    if (status >= 0 && dmb_modes_keep_squares(modes, first, piece->from, piece->to) == there) return 1;
     modes->count = first;
     return 0;
 }

@@ -2,7 +2,7 @@
  *
  *   1. dense, if that is faster (dmb_modes_is_dense)
  *   2. symmetric: find_counted. A short iteration from the shift near 0, whose result counts of eigenvalues confirm; if
- *      they contradict it, the interval from counts (find_interval), confirmed once more
+ *      it has not resolved all, further ones from nearer shifts (find_nearer), confirmed once more
  *   3. find_confirmed: iterations that random vectors confirm, up to DMB_COUNT_TRIES times with more modes
  *   4. if those do not converge, find_converged: all modes by the dense method up to DMB_ALL_INSTEAD coordinates;
  *      otherwise the converged modes without the last, computed once more
@@ -12,8 +12,9 @@
  *
  *     s_k^2 = -(k_wall + EI (k pi/L)^4)/m.
  *
- * Counts then locate an interval that contains the modes wanted and few others; a shift inside it separates them
- * (eq:modes.shift-invert, eq:modes.count). */
+ * Its estimates, with their residuals, bound the edge of the band from below. A shift just there separates the modes
+ * near the edge some hundred times better, and so on until they have converged; a count at each shift confirms the
+ * modes below it (eq:modes.shift-invert, eq:modes.count, eq:modes.nearer). */
 #include <math.h>
 
 #include "analysis/modes/modes.h"
@@ -21,12 +22,13 @@
 /* Margin below the last mode wanted for the comparison with a count: it excludes modes equal to the last. */
 #define DMB_COUNT_MARGIN 1e-9
 #define DMB_COUNT_NOISE 64.0
-/* An upper estimate may be the eigenvalue itself: the end of an interval is beyond it by this fraction. */
-#define DMB_ESTIMATE_MARGIN 1e-8
-/* Subspace dimension of the first iteration: constant, and per mode. */
-enum { DMB_FIRST_VECTORS = 28, DMB_FIRST_SHARE = 1 };
-/* Largest number of extra modes in the interval; largest number of bracketing steps. */
-enum { DMB_BEYOND = 6, DMB_BRACKET = 100 };
+/* Subspace dimension of an iteration, beyond one vector for each mode: few more vectors separate modes less than a
+ * nearer shift. */
+enum { DMB_VECTORS = 20 };
+/* Largest number of nearer shifts, and of counts that place each; beyond the first, it is so much nearer to the known
+ * modes. */
+enum { DMB_NEARER = 12, DMB_PLACES = 8 };
+#define DMB_NEARER_KNOWN 0.25
 /* Largest number of iterations without counts. */
 enum { DMB_COUNT_TRIES = 3 };
 /* Coordinates up to which all modes are computed if some of the lowest do not converge; for more coordinates, number of
@@ -85,89 +87,71 @@ static int confirmed(dmb_mode_search *search)
     return there < 0 ? -1 : there == (int64_t)found_within(modes, square);
 }
 
-/* ---- Interval ---------------------------------------------------------------------------------------------------- */
+/* ---- Nearer shifts ------------------------------------------------------------------------------------------------
+ */
 
-typedef struct bracket {
-    double low, high;       /* [1/s2] */
-    int64_t within, beyond; /* number of modes with |s|^2 below low, fewer than wanted, and below high, enough */
-} bracket;
-
-/* Upper end from the estimate of the iteration, doubled until enough modes are below it. */
-static int32_t open_bracket(dmb_mode_search *search, bracket *b)
+/* Keeps the modes found below the next shift and places it there: between `known`, up to which the modes of positive
+ * squares are complete, and the lower bound of the first one that has not converged. `negative`: number of eigenvalues
+ * below 0. Result: 0 if the counts do not confirm the modes below any such shift. */
+static int place_shift(dmb_mode_search *search, double known, int64_t negative)
 {
-    const double estimate = (1.0 + DMB_ESTIMATE_MARGIN) * (search->reach + fabs(search->shift));
-    b->high = fmax(estimate, 1.0001 * b->low) + DMB_COUNT_NOISE * search->noise;
-    if (!(b->high > 0.0)) return DMB_ERR_NO_CONVERGENCE;
-    for (int i = 0; i < DMB_BRACKET; i++, b->high *= 2.0) {
-        b->beyond = count_within(search, b->high);
-        if (b->beyond < 0) return DMB_ERR_NO_CONVERGENCE;
-        if (b->beyond >= (int64_t)wanted_of(search)) return DMB_OK;
-        b->low = b->high;
-        b->within = b->beyond;
+    double p = search->shift + search->next;
+    for (int i = 0; i < DMB_PLACES && search->next > 0.0; i++, p = known + DMB_NEARER_KNOWN * (p - known)) {
+        if (!(p - known > DMB_COUNT_NOISE * search->noise)) return 0;
+        const int64_t below = dmb_modes_count_below(search, &p, 1e-9 * p);
+        const uint32_t found = found_within(search->modes, p);
+        if (below < 0 || below - negative != (int64_t)found) continue;
+        search->modes->count = found;
+        search->shift = p;
+        return 1;
     }
-    return DMB_ERR_NO_CONVERGENCE;
+    return 0;
 }
 
-/* Narrows the interval to an upper end with few extra modes: by bisection, alternating with the growth of eigenvalues
- * as the fourth power of their number, as at the edge of a band of bending modes. */
-static int32_t close_bracket(dmb_mode_search *search, bracket *b)
+/* Modes of positive squares: short iterations, each from a shift nearer to those that the last one has not resolved,
+ * and below them, so that they are the largest values of the operator. */
+static int32_t find_positive(dmb_mode_search *search, int64_t negative)
 {
-    const int64_t wanted = wanted_of(search);
-    for (int i = 0; i < DMB_BRACKET && b->beyond > wanted + DMB_BEYOND; i++) {
-        const double width = b->high - b->low;
-        const double share = ((double)(wanted - b->within) + 0.5 * DMB_BEYOND) / (double)(b->beyond - b->within);
-        const double middle = b->low + width * (i % 2 == 0 ? fmin(0.5, share * share * share * share) : 0.5);
-        if (!(width > DMB_COUNT_NOISE * search->noise) || !(middle > b->low)) break;
-        const int64_t here = count_within(search, middle);
-        if (here < 0) return DMB_ERR_NO_CONVERGENCE;
-        if (here >= wanted) {
-            b->high = middle;
-            b->beyond = here;
-        } else {
-            b->low = middle;
-            b->within = here;
-        }
+    const uint32_t wanted = wanted_of(search);
+    double known = 0.0;
+    int32_t status = DMB_OK;
+    dmb_modes_keep_squares(search->modes, 0, 0.0, (double)INFINITY);
+    search->partly = search->counted = search->above = 1;
+    search->most = DMB_VECTORS + (size_t)wanted;
+    for (int i = 0; i < DMB_NEARER && search->modes->count < wanted && status >= 0; i++) {
+        status = place_shift(search, known, negative) ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
+        known = search->shift;
+        search->pinned = 0;
+        if (status >= 0) status = dmb_modes_sparse(search, wanted - search->modes->count);
+        dmb_modes_sort(search->modes, search->modes->count);
     }
-    return DMB_OK;
+    search->partly = search->counted = search->above = 0;
+    search->most = 0;
+    return status >= 0 && search->modes->count < wanted ? DMB_ERR_NO_CONVERGENCE : status;
 }
 
-/* Keeps the modes found so far if the counts confirm them. Result: the square up to which they are complete, or 0. */
-static double keep_confirmed(dmb_mode_search *search)
+/* The modes by nearer shifts; those of unstable states have negative squares, which counts alone locate. */
+static int32_t find_nearer(dmb_mode_search *search)
 {
-    dmb_modes *modes = search->modes;
-    if (modes->count == 0) return 0.0;
-    const double last = square_of(modes, modes->count - 1);
-    const double square = last * (1.0 + DMB_COUNT_MARGIN) + DMB_COUNT_NOISE * search->noise;
-    if (!(last > DMB_RIGID_NOISE * search->noise) || count_within(search, square) != (int64_t)modes->count) {
-        modes->count = 0;
-        return 0.0;
-    }
-    return square;
-}
-
-/* Interval and its modes by counts alone. */
-static int32_t find_interval(dmb_mode_search *search)
-{
-    bracket b = {.low = keep_confirmed(search)};
-    const double known = b.low;
-    b.within = search->modes->count;
-    int32_t status = open_bracket(search, &b);
-    if (status >= 0) status = close_bracket(search, &b);
-    if (status < 0) return status;
-    if (known == 0.0) return dmb_modes_squares(search, -b.high, b.high);
-    status = dmb_modes_squares(search, known, b.high);
-    return status < 0 ? status : dmb_modes_squares(search, -b.high, -known);
+    double zero = -DMB_COUNT_NOISE * search->noise;
+    const int64_t negative = dmb_modes_count_below(search, &zero, zero);
+    if (negative < 0) return DMB_ERR_NO_CONVERGENCE;
+    if (negative == 0) search->definite = -zero;
+    const int32_t status = find_positive(search, negative);
+    if (status < 0 || negative == 0) return status;
+    const double last = square_of(search->modes, wanted_of(search) - 1);
+    return dmb_modes_squares(search, -last * (1.0 + DMB_COUNT_MARGIN), zero);
 }
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* A short iteration from the shift near 0, and the interval that it does not resolve. *done: 1 if the counts confirm
- * the modes. */
+/* A short iteration from the shift near 0, and nearer shifts for what it does not resolve. *done: 1 if the counts
+ * confirm the modes. */
 static int32_t find_counted(dmb_mode_search *search, int *done)
 {
     const uint32_t wanted = search->options->count;
     search->partly = search->counted = 1;
-    search->most = DMB_FIRST_VECTORS + DMB_FIRST_SHARE * (size_t)wanted;
+    search->most = DMB_VECTORS + (size_t)wanted;
     int32_t status = dmb_modes_sparse(search, wanted);
     search->partly = search->counted = 0;
     search->most = 0;
@@ -177,7 +161,7 @@ static int32_t find_counted(dmb_mode_search *search, int *done)
     const int witness = confirmed(search);
     *done = witness == 1;
     if (witness != 0) return DMB_OK;
-    status = find_interval(search);
+    status = find_nearer(search);
     if (status == DMB_ERR_NO_CONVERGENCE || status == DMB_ERR_SINGULAR) return DMB_OK;
     if (status < 0) return status;
     dmb_modes_sort(search->modes, search->modes->count);

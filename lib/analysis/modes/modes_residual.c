@@ -112,38 +112,76 @@ static void add_segments(const dmb_linear *linear, const dmb_linear_matrix *A, d
     for (uint32_t i = 0; i < linear->rows; i++) to[i] += factor * y[i];
 }
 
-dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
+/* Matrices and factors of K, s^2 M and s C; without damping the last one is NULL. */
+typedef struct equation_terms {
+    const dmb_linear_matrix *matrix[3];
+    double factor[3][2];
+} equation_terms;
+
+static equation_terms terms_of(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const double *s = search->modes->s + 2 * (size_t)k;
+    const int damped = search->options->kind == DMB_MODES_DAMPED;
+    return (equation_terms){{&linear->stiffness, &linear->mass, damped ? &linear->damping : NULL},
+                            {{1.0, 0.0}, {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]}, {s[0], s[1]}}};
+}
+
+/* Norm of the sum of the terms of mode k; *forces: the sum of their norms. */
+static double imbalance_of(const dmb_mode_search *search, uint32_t k, double *forces)
 {
     const dmb_linear *linear = search->linear;
     const dmb_modes *modes = search->modes;
     const size_t rows = linear->rows;
-    const double *s = modes->s + 2 * (size_t)k;
-    const int parts = modes->im != NULL ? 2 : 1, damped = search->options->kind == DMB_MODES_DAMPED;
-    const dmb_linear_matrix *matrix[3] = {&linear->stiffness, &linear->mass, damped ? &linear->damping : NULL};
-    const double factor[3][2] = {{1.0, 0.0}, {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]}, {s[0], s[1]}};
-    double *left = search->work + 3 * rows, *one = left + 2 * rows, *terms = search->work;
-    double forces = 0.0;
+    const equation_terms t = terms_of(search, k);
+    double *left = search->work + 3 * rows, *one = left + 2 * rows;
+    const complex_rows out = {one, one + rows, search->work};
+    *forces = 0.0;
     memset(left, 0, 2 * rows * sizeof(double));
     for (int m = 0; m < 3; m++) {
-        const complex_rows out = {one, one + rows, search->work};
-        if (matrix[m] == NULL) continue;
+        if (t.matrix[m] == NULL) continue;
         memset(one, 0, 2 * rows * sizeof(double));
-        for (int part = 0; part < parts; part++)
-            add_product(linear, matrix[m], factor[m], (part ? modes->im : modes->re) + rows * k, part, &out);
+        for (int part = 0; part < (modes->im != NULL ? 2 : 1); part++)
+            add_product(linear, t.matrix[m], t.factor[m], (part ? modes->im : modes->re) + rows * k, part, &out);
         for (size_t i = 0; i < 2 * rows; i++) left[i] += one[i];
-        forces += norm_of(search, one, one + rows, 0);
+        *forces += norm_of(search, one, one + rows, 0);
     }
-    dmb_mode_defect defect = {norm_of(search, left, left + rows, 0), 0.0};
+    return norm_of(search, left, left + rows, 0);
+}
+
+/* Rounding of the terms of mode k, as a norm of forces. */
+static double rounding_of(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = linear->rows;
+    const equation_terms t = terms_of(search, k);
+    double *terms = search->work, *one = search->work + 5 * rows;
     memset(terms, 0, rows * sizeof(double));
     for (int m = 0; m < 3; m++)
-        for (int part = 0; part < parts && matrix[m] != NULL; part++)
-            add_segments(linear, matrix[m], hypot(factor[m][0], factor[m][1]),
+        for (int part = 0; part < (modes->im != NULL ? 2 : 1) && t.matrix[m] != NULL; part++)
+            add_segments(linear, t.matrix[m], hypot(t.factor[m][0], t.factor[m][1]),
                          (part ? modes->im : modes->re) + rows * k, one, terms);
-    double rounding = DBL_EPSILON * norm_of(search, terms, NULL, 1);
-    if (modes->info.dense) rounding += search->noise;
-    defect.value = forces > 0.0 ? defect.value / forces : 0.0;
-    defect.bound = DMB_MODE_CONVERGED + (forces > 0.0 ? DMB_MODE_ROUNDING * rounding / forces : 0.0);
-    return defect;
+    return DBL_EPSILON * norm_of(search, terms, NULL, 1) + (modes->info.dense ? search->noise : 0.0);
+}
+
+dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
+{
+    double forces;
+    const double left = imbalance_of(search, k, &forces), rounding = rounding_of(search, k);
+    if (!(forces > 0.0)) return (dmb_mode_defect){0.0, DMB_MODE_CONVERGED};
+    return (dmb_mode_defect){left / forces, DMB_MODE_CONVERGED + DMB_MODE_ROUNDING * rounding / forces};
+}
+
+/* 1: the residual of mode k is far below its bound; the rounding, which is long to compute, decides only if necessary.
+ */
+static int is_sharp(const dmb_mode_search *search, uint32_t k)
+{
+    double forces;
+    const double left = imbalance_of(search, k, &forces);
+    if (left <= DMB_MODE_SHARP * DMB_MODE_CONVERGED * forces) return 1;
+    const dmb_mode_defect defect = dmb_modes_defect(search, k);
+    return defect.value <= DMB_MODE_SHARP * defect.bound;
 }
 
 /* ---- Refusal ----------------------------------------------------------------------------------------------------- */
@@ -417,8 +455,7 @@ int32_t dmb_modes_refine_shapes(dmb_mode_search *search)
         dmb_progress_at(search->linear->work, 0.8 + 0.2 * k / search->modes->count);
         status = dmb_progress_pulse(search->linear->work);
         if (status < 0) break;
-        const dmb_mode_defect defect = dmb_modes_defect(search, k);
-        if (search->modes->rigid[k] || defect.value <= DMB_MODE_SHARP * defect.bound) continue;
+        if (search->modes->rigid[k] || is_sharp(search, k)) continue;
         if (block == NULL) {
             block = dmb_allocate(&search->linear->allocator, bytes);
             status = block != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;

@@ -229,6 +229,7 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     for (int side = 0; side < 2 && search->enough > 0; side++) /* of (s^2 - shift)^-1, shift inside the window */
         operator.beyond[side] = 1.0 /(search->window[side] - search->shift);
     operator.most = search->most;
+    operator.positive = search->above;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
     operator.draw = general ? general_draw : symmetric_draw;
@@ -242,11 +243,13 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     inverse A = {search, linear, NULL, search->shift, 1.0, search->work};
     dmb_krylov found;
     int32_t status = factor(search);
-    if (status < 0 || wanted <= apart_count(search)) return status;
+    if (status < 0 || (!search->above && wanted <= apart_count(search))) return status;
     if (search->options->kind == DMB_MODES_DAMPED) A.damping = &linear->damping;
     if (search->general) A.scale = low_frequency(search);
     /* Motions that are not separated are found too, each with one root 0 or two, and omitted. */
-    const uint32_t values = search->apart ? wanted - search->rigid_count : wanted + search->rigid_count;
+    const uint32_t values = search->above   ? wanted
+                            : search->apart ? wanted - search->rigid_count
+                                            : wanted + search->rigid_count;
     const dmb_operator operator= operator_of(search, &A);
     status = dmb_krylov_largest(&operator, values, search->shift != 0.0 && !search->counted ? 4 : 2,
                                 search->general ? DMB_MODES_GENERAL_TOLERANCE : DMB_MODES_SYMMETRIC_TOLERANCE,
@@ -254,6 +257,7 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     if (status < 0) return status;
     search->modes->info.solves += found.applications;
     search->reach = found.next > 0.0 ? 1.0 / found.next : 0.0;
+    search->next = found.bound > 0.0 ? 1.0 / found.bound : 0.0;
     if (found.count > 0) status = search->general ? add_general(search, &found) : refine(search, &found);
     dmb_krylov_release(&found);
     return status;

@@ -53,7 +53,7 @@ static void draw(void *context, uint64_t *seed, double *x)
 
 static dmb_operator operator_of(blocks *A, int32_t symmetric)
 {
-    const dmb_operator o = {A, N, N, symmetric, 0, metric, apply, draw, NULL, 0, 0, 0, {0.0, 0.0}};
+    const dmb_operator o = {A, N, N, symmetric, 0, metric, apply, draw, NULL, 0, 0, 0, {0.0, 0.0}, 0};
     return o;
 }
 
