@@ -1,6 +1,6 @@
 /* Momentum of the whole scene: the sum over the nodes of Ad^-T p, p = M v with the consistent mass, which the equations
- * conserve exactly. The centre of mass follows from the same mass matrix: half of an element at each end and the first
- * moments +-rho A L^2/12 of its cubic shapes. */
+ * conserve exactly, added mass of mud included (eq:mud.kirchhoff). Mass and centre are of the parts alone: half of an
+ * element at each end and the first moments +-rho A L^2/12 of its cubic shapes. */
 #include "query/query.h"
 
 #include <string.h>
@@ -69,12 +69,13 @@ static void add_mass(const carrier *at, double mass, const double moment[3], dmb
     dmb_vec3_add(sum->centre, b, sum->centre);
 }
 
-/* First moment of the element: +-rho A L^2/12 at its ends; of a curved element at its actual centre. */
+/* First moment of the element: +-rho A L^2/12 at its ends, not those of the mass matrix, which contains added mass of
+ * mud; of a curved element at its actual centre. */
 static void add_element_mass(const dmb_element_type *type, const double d[6], const carrier *A, const carrier *B,
                              dmb_momentum *sum)
 {
     const double half = type->mass.axial[0] + type->mass.axial[1];
-    double near_moment[3] = {type->mass.bending[0][1] - type->mass.bending[0][3], 0.0, 0.0}, weight[3];
+    double near_moment[3] = {type->mass_per_metre * type->length * type->length / 12.0, 0.0, 0.0}, weight[3];
     double far_moment[3] = {-near_moment[0], 0.0, 0.0};
     if (dmb_element_is_curved(type)) {
         dmb_element_bent_centre(type, d, near_moment, weight);

@@ -1,6 +1,6 @@
 /* Mud that goes along with bodies, bits, rings and rigid pipes: accelerations, frequencies and coupled modes in closed
  * form, the tumbling of a body in an ideal fluid against Kirchhoff's equations integrated by themselves, its energy and
- * momentum, and what is refused. Equations: eq:mud.kirchhoff, eq:mud.added-mass. */
+ * momentum, the centre of mass of pipes, and what is refused. Equations: eq:mud.kirchhoff, eq:mud.added-mass. */
 #include <string.h>
 
 #include "mechanism.h"
@@ -380,6 +380,78 @@ static void a_rod_swings_in_mud(void **state)
     rig_close(&s);
 }
 
+/* ---- Momentum and centre of mass --------------------------------------------------------------------------------- */
+
+enum { SLICES = 400 };
+
+/* Two pipes of 3 m, pre-bent by `curvature` [1/m], clamped or free at the rig, gravity along -z. */
+static dmb_id pipes_in_mud(rig *s, double added, double curvature, int32_t start_free)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    rig_open(s, 0.0, 0.0, 0.0);
+    set_mud(s, added, 9.81);
+    string.start_free = start_free;
+    pipe.outer_diameter = 0.05;
+    pipe.inner_diameter = 0.04;
+    pipe.length = 3.0;
+    pipe.elements = 2;
+    pipe.curvature[1] = curvature;
+    pipe.string = add_string(s, &string);
+    (void)add_pipes(s, &pipe, 2);
+    (void)mechanism_start(s, NULL);
+    return pipe.string;
+}
+
+/* Mean position of the sections, by the midpoint rule. */
+static void mean_of_sections(const rig *s, dmb_id string, double centre[3])
+{
+    memset(centre, 0, 3 * sizeof(double));
+    for (uint32_t i = 0; i < 2 * SLICES; i++) {
+        const dmb_pose at = pose_at(s, dmb_station(string, i / SLICES, (i % SLICES + 0.5) / SLICES));
+        for (int k = 0; k < 3; k++) centre[k] += at.position[k] / (2.0 * SLICES);
+    }
+}
+
+/* The mud is no part: mass and centre of a sagging string are those of its steel. */
+static void the_centre_is_of_the_parts(void **state)
+{
+    static const double added[3] = {0.0, 1.0, 5.0}, curvature[3] = {0.0, 0.02, -0.02};
+    const double mass = 7850.0 * PI / 4.0 * (0.05 * 0.05 - 0.04 * 0.04) * 6.0;
+    (void)state;
+    for (int i = 0; i < 9; i++) {
+        rig s;
+        double centre[3];
+        const dmb_id string = pipes_in_mud(&s, added[i % 3], curvature[i / 3], DMB_FREE_NONE);
+        (void)find_equilibrium(&s, NULL);
+        mean_of_sections(&s, string, centre);
+        const dmb_momentum found = momentum_of(&s);
+        check_relative("mass of the steel [kg]", found.mass, mass, 1e-12);
+        check_below("centre of mass from the mean of the sections [m]", largest_difference(3, found.centre, centre),
+                    1e-4);
+        rig_close(&s);
+    }
+}
+
+/* A free string that falls in mud has the impulse of its weight, in the steel and in the mud. */
+static void a_string_falls_in_mud(void **state)
+{
+    const double steel = 7850.0 * PI / 4.0 * (0.05 * 0.05 - 0.04 * 0.04) * 6.0, time = 0.1;
+    const double mud = rho * PI / 4.0 * (2.0 * 0.05 * 0.05 + 0.04 * 0.04) * 6.0; /* C = 2, and inside */
+    const double weight = (steel - rho * PI / 4.0 * (0.05 * 0.05 - 0.04 * 0.04) * 6.0) * 9.81;
+    rig s;
+    (void)state;
+    (void)pipes_in_mud(&s, 2.0, 0.0, DMB_FREE_ALL);
+    const double start = momentum_of(&s).centre[2];
+    take_steps(&s, 1e-3, 100);
+    const dmb_momentum found = momentum_of(&s);
+    check_relative("momentum [kg m/s]", found.linear[2], -weight * time, 1e-9);
+    check_relative("angular momentum [kg m2/s]", found.angular[1], weight * time * 3.0, 1e-9);
+    check_relative("path of the centre [m]", found.centre[2] - start, -0.5 * weight / (steel + mud) * time * time,
+                   1e-9);
+    rig_close(&s);
+}
+
 /* ---- Bad input --------------------------------------------------------------------------------------------------- */
 
 static void check_refused(rig *s, int32_t status, const char *text)
@@ -453,6 +525,8 @@ int main(void)
         cmocka_unit_test(heave_and_pitch),
         cmocka_unit_test(bits_carry_mud),
         cmocka_unit_test(a_rod_swings_in_mud),
+        cmocka_unit_test(the_centre_is_of_the_parts),
+        cmocka_unit_test(a_string_falls_in_mud),
         cmocka_unit_test(what_it_cannot_is_refused),
         cmocka_unit_test(what_does_not_fit_is_refused),
     };
