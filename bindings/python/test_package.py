@@ -66,6 +66,17 @@ def hash_after(model, steps=5):
 
 
 class NamesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.cache = folder.name
+
+    def check_types(self, path):
+        """Output of mypy, which keeps what it has read of the package from one call to the next."""
+        return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", self.cache, path],
+                              capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+
     def test_made_files_are_what_the_headers_say(self):
         done = subprocess.run([sys.executable, HERE / "generate.py", "--check"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -122,9 +133,7 @@ class NamesTest(unittest.TestCase):
             import mypy  # noqa: F401
         except ImportError:
             self.skipTest("not there: mypy")
-        with tempfile.TemporaryDirectory() as cache:
-            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, HERE / "drillmbd"],
-                                  capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+        done = self.check_types(HERE / "drillmbd")
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_types_of_a_users_program(self):
@@ -150,8 +159,7 @@ class NamesTest(unittest.TestCase):
             path = pathlib.Path(folder, "program.py")
             for text, errors in ((right, 0), (right + wrong, 9)):
                 path.write_text(text, encoding="utf-8")
-                done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", folder, path],
-                                      capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+                done = self.check_types(path)
                 self.assertEqual(done.stdout.count(": error:"), errors, done.stdout)
         self.assertIn('did you mean "length"', done.stdout)
 

@@ -1,5 +1,7 @@
 /* Four side by side: AVX2, where the build compiles this file for it. */
-#if defined(__GNUC__) && defined(__AVX2__)
+#include "base/build.h"
+
+#if DMB_WITH_LANES != 2 && defined(__GNUC__) && defined(__AVX2__)
 #define DMB_LANES 4
 #define DMB_KERNELS dmb_kernels_4
 #include "kernel/lanes.h"

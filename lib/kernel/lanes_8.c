@@ -1,5 +1,7 @@
 /* Eight side by side: AVX-512, where the build compiles this file for it. */
-#if defined(__GNUC__) && defined(__AVX512F__)
+#include "base/build.h"
+
+#if DMB_WITH_LANES != 2 && defined(__GNUC__) && defined(__AVX512F__)
 #define DMB_LANES 8
 #define DMB_KERNELS dmb_kernels_8
 #include "kernel/lanes.h"

@@ -8,7 +8,12 @@
 
 #include "mechanism.h"
 
-enum { TUBE, HOLE, BRANCHES, JOINTED, MIXED, SCENES, STEPS = 6 };
+enum { TUBE, HOLE, BRANCHES, JOINTED, MIXED, SCENES };
+#ifdef DMB_SOME_CASES
+enum { STEPS = 2 };
+#else
+enum { STEPS = 6 };
+#endif
 static const char *const names[SCENES] = {"tube", "hole", "branches", "jointed", "mixed"};
 static int32_t laws[2] = {DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_BRISTLE}; /* of the hole, normal and friction */
 

@@ -441,6 +441,12 @@ static int32_t advance_past_failure(uint32_t at, derivative *rates)
     return status;
 }
 
+#ifdef DMB_SOME_CASES
+enum { EVERY = 5 };
+#else
+enum { EVERY = 1 };
+#endif
+
 static void test_failures_beside_a_jump(void **state)
 {
     derivative whole, rates;
@@ -448,10 +454,10 @@ static void test_failures_beside_a_jump(void **state)
     double worst = 0.0;
     (void)state;
     assert_true(advance_past_failure(0, &whole) >= 0);
-    for (uint32_t k = 1; advance_past_failure(k, &rates) < 0; k++, failures++)
+    for (uint32_t k = 1; advance_past_failure(k, &rates) < 0; k += EVERY, failures++)
         worst = fmax(worst, largest_difference(12, (const double *)&rates, (const double *)&whole));
     print_message("    %u failures\n", failures);
-    assert_true(failures > 50);
+    assert_true(failures > 50 / EVERY);
     check_below("    derivatives after a failure, off those without", worst, 1e-5);
     check_close("    of the place by the speed at the start", whole.pose[0], sin(sqrt(50.0) * 0.02) / sqrt(50.0), 1e-6);
 }

@@ -388,6 +388,12 @@ static int32_t drill(scene *s, int32_t law, double speed)
     return status;
 }
 
+#ifdef DMB_SOME_CASES
+static const int with_the_other_law = 0;
+#else
+static const int with_the_other_law = 1;
+#endif
+
 /* Where one of the runs fails hangs on roundings, for they shake ever more; all of them go through with the other law.
  */
 static void rate_law_near_rest(void **state)
@@ -404,6 +410,7 @@ static void rate_law_near_rest(void **state)
             must_fail(&s, 2e-3, DMB_ERR_NO_CONVERGENCE);
         }
         close_scene(&s);
+        if (!with_the_other_law) continue;
         const int32_t status = drill(&s, DMB_ROCK_REGENERATIVE, speed);
         if (status < 0) fail_msg("regenerative law: %s", dmb_sim_message(s.sim));
         close_scene(&s);

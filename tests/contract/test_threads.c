@@ -6,7 +6,11 @@
 
 #include "whole_scene.h"
 
-enum { THREADS = 6, STEPS = 40 };
+#ifdef DMB_SOME_CASES
+enum { THREADS = 6, STEPS = 10, MANY = 32, FEW_STEPS = 3, FURTHER = 2 };
+#else
+enum { THREADS = 6, STEPS = 40, MANY = 64, FEW_STEPS = 10, FURTHER = 9 };
+#endif
 static const double step = 1e-3;
 
 typedef struct job {
@@ -96,9 +100,8 @@ static void sims_of_one_model_are_as_alone(void **state)
 }
 
 /* More than there are processors, all made, run and destroyed at the same time. */
-static void sixty_four_sims(void **state)
+static void many_sims(void **state)
 {
-    enum { MANY = 64, FEW_STEPS = 10 };
     static job jobs[MANY];
     whole_parts parts;
     dmb_model *model = whole_model(&parts);
@@ -134,7 +137,7 @@ static void different_runs_do_not_disturb_each_other(void **state)
     (void)state;
     set_up_jobs(jobs, model, &parts, &start);
     for (uint32_t i = 0; i < THREADS; i++) {
-        jobs[i].steps = 5 + 9 * i;
+        jobs[i].steps = 5 + FURTHER * i;
         wanted[i] = alone(model, jobs[i].steps);
     }
     start_all(jobs);
@@ -277,7 +280,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sims_of_one_model_are_as_alone),
-        cmocka_unit_test(sixty_four_sims),
+        cmocka_unit_test(many_sims),
         cmocka_unit_test(different_runs_do_not_disturb_each_other),
         cmocka_unit_test(model_destroyed_while_sims_live),
         cmocka_unit_test(last_of_many_takes_the_model_along),

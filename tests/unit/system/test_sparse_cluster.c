@@ -10,7 +10,12 @@
 #include "sim/sim.h"
 #include "system/system.h"
 
-enum { MOST = 64, DENSE = 1 << 20, SPARSE = 2, STEPS = 60 };
+enum { MOST = 64, DENSE = 1 << 20, SPARSE = 2 };
+#ifdef DMB_SOME_CASES
+enum { STEPS = 15 };
+#else
+enum { STEPS = 60 };
+#endif
 
 typedef struct machine {
     rig s;
