@@ -1188,6 +1188,16 @@ public:
     {
         return profile_at(quantities, static_cast<std::uint32_t>(stations), nullptr, string);
     }
+    // Of each quantity over so many stations spread evenly: least value, its distance [m], largest value, its distance;
+    // NaN where no station has a value.
+    DRILLMBD_NODISCARD std::vector<double> profile_extremes(span<const std::int32_t> quantities, std::uint32_t stations,
+                                                            string_id string = string_id()) const
+    {
+        std::vector<double> extremes(4 * quantities.size());
+        const dmb_profile request = profile_of(quantities, stations, nullptr, string);
+        check(dmb_query_profile_extremes(handle_, &request, extremes.data()));
+        return extremes;
+    }
     DRILLMBD_NODISCARD double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
     DRILLMBD_NODISCARD dmb_contact contact(std::uint32_t site) const
     {
@@ -1296,16 +1306,22 @@ public:
     }
 
 private:
-    std::vector<double> profile_at(span<const std::int32_t> quantities, std::uint32_t stations, const double *distance,
-                                   string_id string) const
+    static dmb_profile profile_of(span<const std::int32_t> quantities, std::uint32_t stations, const double *distance,
+                                  string_id string)
     {
-        std::vector<double> values(quantities.size() * stations);
         dmb_profile request = dmb_profile_default();
         request.string = string;
         request.station_count = stations;
         request.distance = distance;
         request.quantity_count = quantities.count();
         request.quantities = quantities.data();
+        return request;
+    }
+    std::vector<double> profile_at(span<const std::int32_t> quantities, std::uint32_t stations, const double *distance,
+                                   string_id string) const
+    {
+        std::vector<double> values(quantities.size() * stations);
+        dmb_profile request = profile_of(quantities, stations, distance, string);
         request.values = values.data();
         check(dmb_query_profile(handle_, &request));
         return values;

@@ -2,6 +2,7 @@
 #include "drillmbd.hpp"
 #include "expect.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -118,6 +119,9 @@ void scene_from_end_to_end()
     const std::vector<double> spread = sim.profile({DMB_PROFILE_DISTANCE, DMB_PROFILE_TORQUE}, 3, made.string);
     EXPECT(spread.size() == 6 && spread.at(0) == 0.0 && std::abs(spread.at(4) - 2.0 * spread.at(2)) < 1e-12);
     EXPECT(spread.at(3) == sim.profile({DMB_PROFILE_TORQUE}, {spread.at(2)}).at(0));
+    const std::vector<double> extremes = sim.profile_extremes({DMB_PROFILE_DISTANCE, DMB_PROFILE_TORQUE}, 3);
+    EXPECT(extremes.at(0) == spread.at(0) && extremes.at(2) == spread.at(4) && extremes.at(3) == spread.at(4));
+    EXPECT(extremes.at(6) == std::max(spread.at(1), std::max(spread.at(3), spread.at(5))));
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));
     EXPECT(sim.contact(0).number == 0);
     EXPECT(sim.contact_total().normal_force >= 0.0);
