@@ -517,7 +517,7 @@ class MapTest(FolderTest):
     def test_refused(self):
         for words, wanted in ((("--vary", "x"), "write KEY=V1,V2"),
                               (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
-                            (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "each key once"),
+                            (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "give each key once"),
                             (("--vary", "hole.diameter=94 mm", "--method", "subset"),
                              "leave --indices and --method subset out")):
             self.assertIn(wanted, self.ask("probability", self.scene, *words, status=2))

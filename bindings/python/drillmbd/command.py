@@ -90,7 +90,8 @@ SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
 
-Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then.
+Options after -- belong to the command that is repeated. A key that does not exist is refused before the first case.
+A case that fails is a row with its message; the exit status is 1 then.
 After Ctrl-C the same line continues: cases that are complete in the folder are not computed again."""  # noqa: E501
 
 
@@ -404,10 +405,10 @@ def _sweep(options: Any) -> int:
                     "everywhere: "
                     f"drillmbd probability {options.scene} " + " ".join(f"--vary {text!r}" for text in options.vary))
     from . import scene
-    from .sweep import MOST_CASES, keys_of, refuse_unnamed, sweep, varied
+    from .sweep import MOST_CASES, keys_of, refuse_wrong_keys, sweep, varied
     try:
         vary = [varied(text) for text in options.vary]
-        refuse_unnamed([one for key, _ in vary for one in keys_of(key)], options.scene)
+        refuse_wrong_keys([one for key, _ in vary for one in keys_of(key)], options.scene)
     except ValueError as error:
         raise Usage(f"--vary {error}") from None
     cases = math.prod(len(values) for _, values in vary)

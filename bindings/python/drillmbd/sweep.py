@@ -22,7 +22,8 @@ from .probability.study import code
 from .commands import QUESTIONS
 from .runner import carry_out
 from .scene import CannotSave, Scene, SceneError, saves
-from .scene.overrides import by_number, path_of_key
+from .scene.override_keys import refuse_wrong
+from .scene.overrides import path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _KEY_AND_VALUES = re.compile(r"((?:[^=\[]|\[[^\]]*\])*)=(.*)", re.DOTALL)  # names in brackets may contain = and &
@@ -75,15 +76,14 @@ def varied(text: str) -> tuple[str, list[Any]]:
     return " & ".join(keys), listed
 
 
-def refuse_unnamed(keys: list[str], file: str) -> None:
-    """Refuses keys that name a table which the scene file does not have, or has twice, before any case. Raises
-    ValueError; faults of the file are those of each case."""
+def refuse_wrong_keys(keys: list[str], file: str) -> None:
+    """Refuses keys that are not of the scene format, and those of tables that the scene file does not have, before any
+    case. Raises ValueError; faults of the file are those of each case."""
     try:
         content = tomllib.loads(pathlib.Path(file).read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):
-        return
-    for key in keys:
-        by_number(key, content, typed=True)
+        content = None
+    refuse_wrong(keys, content)
 
 
 def keys_of(text: str) -> list[str]:

@@ -17,6 +17,7 @@ from ..exit_status import FAILED, STOPPED, line_of
 from ..runner import carry_out
 from ..scene import CannotSave, SceneError
 from ..scene.failure import KINDS
+from ..scene.override_keys import refuse_wrong
 from ..scene.overrides import by_number
 from .answer import ANY, Answer, Asked
 from .auto import Auto
@@ -54,11 +55,10 @@ def _varied(texts: list[str], content: dict[str, Any]) -> list[tuple[str, list[A
     from ..sweep import keys_of, varied
     try:
         found = [varied(text) for text in texts]
-        keys = [by_number(one, content, typed=True) for key, _ in found for one in keys_of(key)]
+        keys = [one for key, _ in found for one in keys_of(key)]
+        refuse_wrong(keys, content)
     except ValueError as error:
         raise Usage(f"--vary {error}") from None
-    if len(set(keys)) < len(keys):
-        raise Usage("--vary: each key once")
     settings = [one for one in keys if re.fullmatch(r"variability\.\w+", one)]
     if settings:
         raise Usage(f"--vary {settings[0]}: is a setting of the study, which all cells have in common; change it in "

@@ -87,15 +87,28 @@ def _number(key: str, name: str, table: str, holder: Any) -> int:
 
 
 def _step(holder: Any, part: Any, path: Path, problems: Problems) -> Any:
+    """The table or array one part further along a path; None, and a problem, without one."""
     if isinstance(part, int):
-        if isinstance(holder, dict):  # one table counts as an array of one
-            holder = [holder]
-        if isinstance(holder, list) and part < len(holder):
-            return holder[part]
-    elif isinstance(holder, dict):
+        items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
+        if part < len(items):
+            return items[part]
+        problems.add(path, None, f"the scene has {len(items)} such table{'s' * (len(items) > 1)}, numbered from 0"
+                     if holder else "the scene has no such table")
+        return None
+    holder = _only(holder)
+    if isinstance(holder, dict):
         return holder.setdefault(part, {})
-    problems.add(path, None, "the scene has no such table")
+    problems.add(path, None, _no_keys(path))
     return None
+
+
+def _only(holder: Any) -> Any:
+    """The table of an array of one, which counts as that table."""
+    return holder[0] if isinstance(holder, list) and len(holder) == 1 else holder
+
+
+def _no_keys(path: Path) -> str:
+    return f"{dotted(path[:-1])} holds no keys; name one of its items by [0], [1] ..."
 
 
 def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problems) -> None:
@@ -114,11 +127,10 @@ def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problem
             holder = _step(holder, part, path[:number + 1], problems)
             if holder is None:
                 break
-        if isinstance(holder, list) and len(holder) == 1:
-            holder = holder[0]
+        holder = _only(holder)
         if isinstance(holder, dict) and value is None:
             holder.pop(path[-1], None)
         elif isinstance(holder, dict):
             holder[path[-1]] = value
         elif holder is not None:
-            problems.add(path, None, f"{dotted(path[:-1])} holds no keys; name one of its items by [0], [1] ...")
+            problems.add(path, None, _no_keys(path))
