@@ -92,7 +92,7 @@ class Page {
     }
 
     /** Waits until an expression is true. */
-    async until(expression, seconds = 30) {
+    async until(expression, seconds = 120) {
         const end = Date.now() + 1000 * seconds;
         while (!(await this.ask(`Boolean(${expression})`))) {
             if (Date.now() > end) throw new Error(`not within ${seconds} s: ${expression}; page: ${await this.ask("document.getElementById('message')?.textContent")}; ${this.errors}`);
