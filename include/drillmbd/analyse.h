@@ -202,12 +202,12 @@ typedef struct dmb_path_report {
 } dmb_path_report;
 DMB_SIZED_STRUCT(dmb_path_report)
 /* Follows the path from the present static state on by arc length (eq:buckling.arc). Limit points, bifurcations and the ends are
- * located to 1e-8 of the step by regula falsi. Where K is unsymmetric, a step is a twentieth of factor_end at most: an eigenvalue
- * that leaves and one that comes back closer together may be passed by. Two that a complex pair becomes change `negative` and are
- * no bifurcation. The report of a lost path states its end. DMB_NOTE_STOPPED after max_points or by the callback. Errors:
- * DMB_ERR_ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
- * _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element; message says where),
- * _UNSUPPORTED (as of buckling). O(elements) an iteration; memory: the sim's once more. */
+ * located to 1e-8 of the step. Where K is unsymmetric, a step is a twentieth of factor_end at most: an eigenvalue that leaves and
+ * one that comes back closer together may be passed by. Two that a complex pair becomes change `negative` and are no bifurcation.
+ * The report of a lost path states its end. DMB_NOTE_STOPPED after max_points or by the callback, _INCOMPLETE where `negative` is
+ * -1: two that pass 0 there may be missing. Errors: DMB_ERR_ORDER (the state is no equilibrium), _SINGULAR (message says which
+ * part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where), _ROTATION (2.5 rad in an element;
+ * message says where), _UNSUPPORTED (as of buckling). O(elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
@@ -247,10 +247,10 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
  * be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL: it is cut. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 /* Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of
- * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress of an element between two points of contact over the yield strength
- * (yield_strength, else a strain of 0.003). It falls with the square of the length of the elements. error [-], shape (capacity):
- * by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of
- * by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; any number of threads. O(elements). */
+ * dmb_pipe_def.elements (eq:beam.mesh-error): bending stress of an element between two contact points, by the weight of all below
+ * it, over the yield strength (yield_strength, else a strain of 0.003). It falls with the square of the length of the elements.
+ * error [-], shape (capacity): by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met;
+ * dmb_analysis_check warns above 0.01. capacity >= its pipes. Of a compiled model; any number of threads. O(elements). */
 DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity);
 
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------- */

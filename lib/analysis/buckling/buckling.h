@@ -45,9 +45,11 @@ typedef struct dmb_path_place {
     double rate;       /* [unit of the factor/m] along the tangent */
     double arc;        /* [m] from the start */
     double watched;    /* [m] */
-    int32_t negative;  /* eigenvalues of the stiffness, as in dmb_path_point */
+    int32_t negative;  /* eigenvalues of the stiffness, as in dmb_path_point; -1: not resolved */
+    int32_t odd;       /* 1: det K < 0, also where the count is not resolved */
     int32_t stiffness; /* DMB_STIFFNESS_... */
-    double *tangent;   /* (rows) [m, rad] body-frame displacements per metre of arc */
+    int32_t reserved;
+    double *tangent; /* (rows) [m, rad] body-frame displacements per metre of arc */
 } dmb_path_place;
 
 typedef struct dmb_path {
@@ -71,6 +73,8 @@ typedef struct dmb_path {
     uint32_t turned;     /* element that a step has rotated too far; DMB_NONE: none */
     double turned_at;    /* [unit of the factor] start of that step */
     int32_t begun;       /* 1: started from an equilibrium, so that the report is valid */
+    int32_t unresolved;  /* 1: the count of a computed point is not resolved */
+    int32_t reserved;
     dmb_path_report report;
     void *block;
     size_t block_size;
@@ -104,6 +108,9 @@ enum {
     DMB_EVENT_DISPLACEMENT = 4 /* options.displacement_end */
 };
 int32_t dmb_path_event(const dmb_path *path);
+/* 1: eigenvalues of the stiffness have changed sign between last and next, as far as is known: without a resolved count
+ * of both an odd number of them, which changes the sign of det K. */
+int dmb_path_count_changes(const dmb_path *path);
 /* An end of the path that lies between them, except `but`. */
 int32_t dmb_path_end(const dmb_path *path, int32_t but);
 /* Moves next to the event, by regula falsi on the arc; mode is then the softest shape there. A bifurcation may prove to

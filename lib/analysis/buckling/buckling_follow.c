@@ -137,7 +137,7 @@ static int32_t linearise_before(follower *f, double arc)
         if (step_back[k] > 0.0) {
             status = dmb_path_correct(path, path->last.tangent, path->last.rate, step_back[k] * arc);
             if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
-            if (status >= 0 && path->next.negative != path->last.negative) status = DMB_ERR_ORDER;
+            if (status >= 0 && dmb_path_count_changes(path)) status = DMB_ERR_ORDER;
             if (status >= 0) status = dmb_path_accept(path);
         }
         if (status >= 0) status = linearise_here(f);
@@ -238,7 +238,8 @@ static int32_t look_ahead(follower *f)
 
 /* A step past a bifurcation may end on the crossing path, which is stable, and one past a limit point on another path:
  * the direction has changed. The step is repeated with shorter lengths, unless it is a corner with a contact change:
- * after TRIES repetitions, or if steps are below the fraction BREAKPOINT of the longest one, as near a corner. */
+ * after TRIES repetitions, or if steps are below the fraction BREAKPOINT of the longest one, as near a corner. A point
+ * whose negative eigenvalues could not be counted is replaced by a nearer one in the same way. */
 #define DMB_FOLLOW_STRAIGHT 0.9
 #define DMB_FOLLOW_SHORTER 0.25
 #define DMB_FOLLOW_TRIES 8
@@ -249,8 +250,10 @@ static int32_t find_next(follower *f, int32_t *event)
     dmb_path *path = &f->path;
     for (int k = 0;; k++, f->arc *= DMB_FOLLOW_SHORTER) {
         const int32_t status = dmb_path_find_next(path, &f->arc, event);
-        if (status < 0 || *event != DMB_EVENT_NONE || path->next.negative != 0 || k >= DMB_FOLLOW_TRIES) return status;
-        const int straight = dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT;
+        if (status < 0 || *event != DMB_EVENT_NONE || path->next.negative > 0 || k >= DMB_FOLLOW_TRIES) return status;
+        const int resolved = path->next.negative == 0;
+        const int straight =
+            resolved && dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT;
         if (straight) f->longest = fmax(f->longest, f->arc);
         if (straight || f->arc < DMB_FOLLOW_BREAKPOINT * f->longest) return status;
     }

@@ -206,10 +206,16 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
 
 static int32_t unstable(dmb_sim *sim, int32_t negative)
 {
-    dmb_message_set(&sim->message,
-                    "buckling: the state is not stable, its stiffness has negative eigenvalues = %d, must be 0; find a "
-                    "stable one with dmb_analysis_static first",
-                    negative);
+    if (negative < 0)
+        dmb_message_set(&sim->message,
+                        "buckling: the stability of the state is not resolved, the negative eigenvalues of its "
+                        "unsymmetric stiffness could not be counted; use fewer elements");
+    else
+        dmb_message_set(
+            &sim->message,
+            "buckling: the state is not stable, its stiffness has negative eigenvalues = %d, must be 0; find a "
+            "stable one with dmb_analysis_static first",
+            negative);
     return DMB_ERR_ORDER;
 }
 

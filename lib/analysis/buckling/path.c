@@ -3,7 +3,8 @@
  *     dmb_path_find_next   predictor and corrector (path_step.c); after a failure half the length, 40 times at most
  *     event in the step     the point is moved to it, the first that applies (dmb_path_event):
  *       limit               df/ds changes sign: the path goes on beyond it
- *       bifurcation         the number of negative eigenvalues changes: straight on, or once onto the branch (options)
+ *       bifurcation         the number of negative eigenvalues changes, or the sign of det K where that number is not
+ *                           resolved: straight on, or once onto the branch (options)
  *       factor_end,         end of the path
  *       displacement_end
  *     dmb_path_accept       the point becomes `last` and is reported
@@ -156,7 +157,7 @@ static int32_t locate_first(dmb_path *path, int32_t *event, double arc)
 {
     const int32_t status = locate(path, event, arc);
     const int ends = *event == DMB_EVENT_FACTOR || *event == DMB_EVENT_DISPLACEMENT;
-    if (status < 0 || !ends || path->next.negative == path->last.negative) return status;
+    if (status < 0 || !ends || !dmb_path_count_changes(path)) return status;
     *event = DMB_EVENT_BIFURCATION;
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
@@ -303,10 +304,21 @@ void dmb_path_close(dmb_path *path)
     path->block = NULL;
 }
 
+/* The sign of det K is always known, and with it each odd number of eigenvalues that change sign. */
+static int32_t note_unresolved(dmb_path *path)
+{
+    dmb_message_set(
+        &path->sim->message,
+        "path: the negative eigenvalues of the unsymmetric stiffness could not be counted at some points; "
+        "bifurcations at which two change sign together may be missing; use smaller steps or fewer elements");
+    return DMB_NOTE_INCOMPLETE;
+}
+
 static int32_t trace(dmb_path *path)
 {
     int32_t status = dmb_path_open(path);
     if (status >= 0) status = follow(path);
+    if (status == DMB_OK && path->unresolved) status = note_unresolved(path);
     if (status < 0 && status != DMB_ERR_NO_MEMORY) explain(path, status);
     dmb_path_close(path);
     return status;

@@ -58,6 +58,8 @@ static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, in
     }
     const int32_t status = dmb_stability_judge(&path->search, 0, weakest, bad, &found);
     path->next.negative = found.negative;
+    path->next.odd = found.odd;
+    if (status >= 0 && found.negative < 0) path->unresolved = 1;
     path->next.stiffness = found.stiffness;
     return status;
 }
@@ -200,12 +202,25 @@ int32_t dmb_path_end(const dmb_path *path, int32_t but)
     return DMB_EVENT_NONE;
 }
 
+/* Change of the count; of an unresolved one its parity, which is the sign of det K. */
+static int32_t change_of_count(const dmb_path *path)
+{
+    const dmb_path_place *last = &path->last, *next = &path->next;
+    const int resolved = last->negative >= 0 && next->negative >= 0;
+    return resolved ? next->negative - last->negative : next->odd - last->odd;
+}
+
+int dmb_path_count_changes(const dmb_path *path)
+{
+    return change_of_count(path) != 0;
+}
+
 /* The limit point comes first: there an eigenvalue changes sign, too, and the count alone would name it a bifurcation.
  * `side` is the rate of the last point, or at a limit point the rate beyond. */
 int32_t dmb_path_event(const dmb_path *path)
 {
     if (path->side * path->next.rate < 0.0) return DMB_EVENT_LIMIT;
-    if (path->last.negative != path->next.negative) return DMB_EVENT_BIFURCATION;
+    if (dmb_path_count_changes(path)) return DMB_EVENT_BIFURCATION;
     return dmb_path_end(path, DMB_EVENT_NONE);
 }
 
@@ -283,8 +298,7 @@ static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
     if (status < 0) return status;
     if (q->event == DMB_EVENT_LIMIT) *value = path->next.rate;
     if (q->event == DMB_EVENT_BIFURCATION) path->softest = *value = softness(path);
-    if (q->event == DMB_EVENT_BIFURCATION && q->counted)
-        *value = path->next.negative == path->last.negative ? 1.0 : -1.0;
+    if (q->event == DMB_EVENT_BIFURCATION && q->counted) *value = dmb_path_count_changes(path) ? -1.0 : 1.0;
     if (q->event == DMB_EVENT_FACTOR) *value = path->next.factor - path->options->factor_end;
     if (q->event == DMB_EVENT_DISPLACEMENT) *value = path->next.watched - path->options->displacement_end;
     return DMB_OK;
@@ -335,15 +349,21 @@ static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double withi
 #define DMB_CORNER 1e-4
 #define DMB_ROUNDINGS 3.0
 
-/* Reverses the path at a corner; next is just beyond it. */
+/* Reverses the path at a corner where det K changes its sign; next is just beyond it. */
 static void turn_corner(dmb_path *path, int32_t *event)
 {
     *event = DMB_EVENT_NONE;
-    if ((path->next.negative - path->last.negative) % 2 == 0) return;
+    if (change_of_count(path) % 2 == 0) return;
     *event = DMB_EVENT_LIMIT;
     path->next.rate = -path->next.rate;
     for (uint32_t i = 0; i < path->work->scene->row_count; i++) path->next.tangent[i] = -path->next.tangent[i];
     path->side = path->next.rate;
+}
+
+static void take_count(dmb_path *path, const dmb_path_place *from)
+{
+    path->next.negative = from->negative;
+    path->next.odd = from->odd;
 }
 
 /* First change of the count: by the count to a thousandth of the step, and then by the eigenvalue that changes sign
@@ -373,7 +393,7 @@ static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t 
     if (status >= 0) status = probe(path, q, soft.low, &soft.at_low);
     if (status >= 0) status = probe(path, q, soft.high, &soft.at_high);
     if (status < 0) return status;
-    const int32_t beyond = path->next.negative;
+    const dmb_path_place beyond = path->next;
     q->counted = soft.at_low * soft.at_high >= 0.0 || fabs(soft.at_low) <= DMB_CORNER * size;
     if (q->counted) soft = counted;
     status = close_in(path, q, &soft, DMB_LOCATED * arc);
@@ -382,7 +402,7 @@ static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t 
     if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral along the whole step: the sign does not matter */
     const int corner = fabs(path->softest) > fmax(DMB_CORNER * size, rounding);
     if (corner) status = probe(path, q, soft.high, &soft.at_high);
-    path->next.negative = beyond; /* at the bifurcation itself the sign is rounding */
+    take_count(path, &beyond); /* at the bifurcation itself the sign is rounding */
     if (corner && status >= 0) turn_corner(path, event);
     return status;
 }
@@ -403,14 +423,14 @@ int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
     quest q = {*event, 0};
     bracket b = {0.0, arc, 0.0, 0.0};
     const double side = path->next.rate;
-    const int32_t beyond = path->next.negative;
+    const dmb_path_place beyond = path->next;
     if (*event == DMB_EVENT_BIFURCATION) return locate_bifurcation(path, &q, arc, event);
     int32_t status = probe_ends(path, &q, &b);
     const double before = b.at_low;
     if (status >= 0) status = close_in(path, &q, &b, DMB_LOCATED * arc);
     if (status < 0) return status;
     if (*event != DMB_EVENT_LIMIT) return is_at_end(path, *event, before) ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
-    path->next.negative = beyond; /* at the limit point itself the sign is rounding */
+    take_count(path, &beyond); /* at the limit point itself the sign is rounding */
     path->side = side;
     return DMB_OK;
 }

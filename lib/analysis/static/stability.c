@@ -360,6 +360,7 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
                 .wanted = DMB_DIVERGENCE_FIRST,
                 .dimension = coordinates_of(state->sim)};
     int none;
+    out->odd = s.odd;
     int32_t status = look_for_none(state, out->rounding, &none);
     if (status >= 0) status = factor_again(state);
     out->negative = 0;
@@ -390,6 +391,7 @@ static int32_t judge_symmetric(dmb_sim *sim, int thorough, dmb_block_weakest *we
     const int32_t status = dmb_stiffness_signs_of(sim, thorough, out->amount, &signs);
     *bad = dmb_factor_stiffness(sim, weakest);
     out->negative = signs.negative;
+    out->odd = signs.negative & 1;
     out->unresolved = signs.unresolved;
     out->bound = signs.bound;
     return status;
@@ -408,6 +410,6 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
     if (out->stiffness == DMB_STIFFNESS_SYMMETRIC) return judge_symmetric(sim, thorough, weakest, bad, out);
     if (out->amount != NULL) dmb_stiffness_amounts(sim, out->amount);
     *bad = dmb_factor_stiffness(sim, weakest);
-    out->negative = 0;
+    out->negative = out->odd = 0;
     return *bad >= 0 ? DMB_OK : judge_unsymmetric(state, thorough, out);
 }

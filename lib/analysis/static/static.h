@@ -285,7 +285,7 @@ typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */
     int32_t negative;   /* negative eigenvalues beyond the rounding level; -1: they could not be counted */
     int32_t unresolved; /* eigenvalues at the rounding level, of unknown sign; computed if `thorough` */
-    int32_t reserved;
+    int32_t odd;        /* 1: det K < 0, known without a count */
     double bound;     /* [N/m] largest magnitude of the unresolved eigenvalues, rotations over the square of the length
                          scale */
     double asymmetry; /* [-] dmb_asymmetry_of */
