@@ -132,6 +132,122 @@ static void in_a_bend(void **state)
     rig_close(&s);
 }
 
+/* ---- What hangs below -------------------------------------------------------------------------------------------- */
+
+enum { UPPER = 20, COLLARS = 10 };
+
+/* Parts of one weight that hang on the pipes: collars of each kind, tool joints, a bit, a ring, sections on a sub. */
+enum { FLEXIBLE, RIGID, AXIAL_TORSIONAL, TOOL_JOINT, BIT, RING, SUB, TWO_SUBS, BELOW };
+
+static const double collar_mass = 7850.0 * PI / 4.0 * (0.2 * 0.2 - 0.07 * 0.07) * 10.0 * COLLARS;
+
+static void add_collars(rig *s, dmb_id string, int32_t kind, uint32_t count)
+{
+    const tube collar = {0.2, 0.07, 10.0, 1, 0};
+    dmb_pipe_def pipe = tube_pipe(&collar);
+    pipe.kind = kind;
+    pipe.string = string;
+    (void)add_pipes(s, &pipe, count);
+}
+
+/* A sub with no weight worth mentioning, on a joint of that kind to the string before it; the section after it. */
+static dmb_id add_sub(rig *s, dmb_id string, int32_t kind)
+{
+    dmb_sub_def def = dmb_sub_def_default();
+    dmb_sub made = dmb_sub_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    joint.kind = kind;
+    body.mass = 1e-3;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1e-6;
+    def.string = string;
+    def.body = &body;
+    def.before = &joint;
+    must_model(s, dmb_model_add_sub(s->model, &def, &made));
+    return made.section;
+}
+
+static void hang(rig *s, dmb_id string, int below)
+{
+    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
+    bit.string = ring.string = string;
+    if (below == FLEXIBLE) add_collars(s, string, DMB_PIPE_FLEXIBLE, COLLARS);
+    if (below == RIGID) add_collars(s, string, DMB_PIPE_RIGID, COLLARS);
+    if (below == AXIAL_TORSIONAL) add_collars(s, string, DMB_PIPE_AXIAL_TORSIONAL, COLLARS);
+    if (below == SUB) add_collars(s, add_sub(s, string, DMB_JOINT_REVOLUTE), DMB_PIPE_FLEXIBLE, COLLARS);
+    if (below == TWO_SUBS) {
+        const dmb_id second = add_sub(s, string, DMB_JOINT_FIXED);
+        add_collars(s, second, DMB_PIPE_RIGID, COLLARS / 2);
+        add_collars(s, add_sub(s, second, DMB_JOINT_UNIVERSAL), DMB_PIPE_FLEXIBLE, COLLARS / 2);
+    }
+    bit.mass = ring.mass = collar_mass;
+    ring.pipe = UPPER - 1;
+    ring.fraction = 1.0;
+    ring.outer_diameter = 0.2;
+    if (below == BIT) must_model(s, dmb_model_add_bit(s->model, &bit, NULL));
+    if (below == RING) must_model(s, dmb_model_add_stabiliser(s->model, &ring, NULL));
+}
+
+/* Pipes from the vertical through a build of 20 degrees in 100 m, down to 200 m; error by pipe. */
+static void hung(rig *s, int below, double mud, double error[UPPER + COLLARS])
+{
+    static const double survey[] = {0.0, 0.0, 0.0, 50.0, 0.0, 0.0, 150.0, PI / 9.0, 0.0, 400.0, PI / 9.0, 0.0};
+    const tube t = {0.127, 0.108, 10.0, 1, 0};
+    dmb_pipe_def pipe = tube_pipe(&t);
+    dmb_wall_def wall = s1_hole();
+    dmb_string_def def = dmb_string_def_default();
+    dmb_environment_def environment = dmb_environment_def_default();
+    rig_open(s, 0.0, 0.0, -G);
+    environment.gravity[2] = -G;
+    environment.fluid_density = mud;
+    must_model(s, dmb_model_set_environment(s->model, &environment));
+    wall.diameter = 0.216;
+    wall.survey = survey;
+    wall.survey_count = 4;
+    (void)add_wall(s, &wall);
+    def.follows_hole = 1;
+    pipe.string = add_string(s, &def);
+    (void)add_pipes(s, &pipe, below == TOOL_JOINT ? UPPER - 1 : UPPER);
+    pipe.joint_length = below == TOOL_JOINT ? 0.5 : 0.0;
+    pipe.joint_mass = below == TOOL_JOINT ? collar_mass : 0.0;
+    if (below == TOOL_JOINT) (void)add_pipes(s, &pipe, 1);
+    hang(s, pipe.string, below);
+    (void)rig_start(s, NULL);
+    assert_int_equal(dmb_analysis_mesh(s->model, pipe.string, error, UPPER + COLLARS), DMB_OK);
+}
+
+/* [-] In the bend: tension, the integral of w cos over the pipes and the weight of what hangs, both less buoyancy. */
+static double error_in_bend(uint32_t pipe, double buoyancy)
+{
+    const tube t = {0.127, 0.108, 10.0, 1, 0};
+    const double R = 100.0 / (PI / 9.0), angle = (10.0 * pipe + 5.0 - 50.0) / R, w = buoyancy * weight(&t);
+    const double hanging = (buoyancy * collar_mass * G + w * 50.0) * cos(PI / 9.0);
+    const double tension = hanging + w * R * (sin(PI / 9.0) - sin(angle));
+    const double q = fabs(tension / R - w * sin(angle));
+    return q * 100.0 / 12.0 * 0.5 * t.outer / (2.1e11 * second_moment(&t) * 3e-3);
+}
+
+static void by_what_hangs_below(void **state)
+{
+    (void)state;
+    for (int below = 0; below < BELOW; below++) {
+        const int pipes = below == FLEXIBLE || below == RIGID || below == AXIAL_TORSIONAL || below > RING;
+        for (int wet = 0; wet <= pipes; wet++) {
+            rig s;
+            char text[64];
+            double error[UPPER + COLLARS];
+            hung(&s, below, wet ? 1200.0 : 0.0, error);
+            for (uint32_t k = 5; k < 15; k++) {
+                (void)snprintf(text, sizeof text, "error of pipe %u above %d", k, below);
+                check_relative(text, error[k], error_in_bend(k, wet ? 1.0 - 1200.0 / 7850.0 : 1.0), 0.01);
+            }
+            check_below("pipes in the vertical hole", error[2], 1e-9);
+            rig_close(&s);
+        }
+    }
+}
+
 static void nothing_to_divide(void **state)
 {
     const tube t = {0.2, 0.07, 30.0, 1, 0};
@@ -186,8 +302,8 @@ static void as_a_warning(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_statics_have_it), cmocka_unit_test(usual_rods),   cmocka_unit_test(in_a_bend),
-        cmocka_unit_test(nothing_to_divide),  cmocka_unit_test(as_a_warning),
+        cmocka_unit_test(as_statics_have_it),  cmocka_unit_test(usual_rods),        cmocka_unit_test(in_a_bend),
+        cmocka_unit_test(by_what_hangs_below), cmocka_unit_test(nothing_to_divide), cmocka_unit_test(as_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

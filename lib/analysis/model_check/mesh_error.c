@@ -13,8 +13,59 @@
 
 typedef struct mesh_march {
     const dmb_scene *scene;
-    double axial; /* [N] tension at the present place by the weight below it */
+    double axial;  /* [N] tension at the present place by the weight below it */
+    uint32_t node; /* this and the further nodes of the string are contained in it */
 } mesh_march;
+
+/* ---- Tension ----------------------------------------------------------------------------------------------------- */
+
+/* [N] Axial weight on a node, at the depth of its centre: half of each element beside it, rigid pipes, tool joints,
+ * rings, bodies and bits, less buoyancy. */
+static double axial_weight(const dmb_scene *scene, uint32_t node)
+{
+    const double mass = scene->weight_mass[node], moment = scene->weight_moment[3 * (size_t)node];
+    const double arm = mass > 0.0 || mass < 0.0 ? moment / mass : 0.0;
+    double x[3], t[3], bend[3];
+    dmb_hole_frame(&scene->hole, scene->reference_depth[node] + arm, x, t, bend);
+    return mass * dmb_vec3_dot(scene->gravity, t);
+}
+
+/* String that the node begins; DMB_NONE: none. */
+static uint32_t string_from(const dmb_scene *scene, uint32_t node)
+{
+    for (uint32_t s = 0; s < scene->string_count; s++)
+        if (scene->strings[s].node_count > 0 && scene->strings[s].first_node == node) return s;
+    return DMB_NONE;
+}
+
+/* 1: the node is a free body, no part of a string. */
+static int is_body(const dmb_scene *scene, uint32_t node)
+{
+    return scene->chains[scene->node_chain[node]].count == 1 && string_from(scene, node) == DMB_NONE;
+}
+
+/* [N] Axial weight of what joints carry at the far end of a string: bodies, and strings that begin there. */
+static double hanging_weight(const dmb_scene *scene, uint32_t string)
+{
+    double sum = 0.0;
+    uint32_t cluster = DMB_NONE;
+    for (uint32_t hops = 0; scene->cluster_count > 0 && hops < scene->string_count && string != DMB_NONE; hops++) {
+        const uint32_t from = string, at = scene->node_cluster[scene->strings[from].end_node];
+        string = DMB_NONE;
+        if (at == DMB_NONE || at == cluster) break;
+        cluster = at;
+        const dmb_cluster *c = scene->clusters + at;
+        for (uint32_t i = 0; i < c->node_count; i++) {
+            const uint32_t node = scene->cluster_nodes[c->node + i], next = string_from(scene, node);
+            if (is_body(scene, node)) sum += axial_weight(scene, node);
+            if (next == DMB_NONE || next == from) continue;
+            const dmb_string_map *map = scene->strings + next;
+            for (uint32_t k = 0; k < map->node_count; k++) sum += axial_weight(scene, map->first_node + k);
+            string = next;
+        }
+    }
+    return sum;
+}
 
 /* [m] Largest distance of neighbouring contact points of an element of this length. */
 static double contact_spacing(const dmb_pipe_def *def, double length)
@@ -26,34 +77,35 @@ static double contact_spacing(const dmb_pipe_def *def, double length)
     return largest * length;
 }
 
-/* [N/m] Side load per metre on the wall at depth [m]: lateral weight and tension times curvature. Advances over
- * `length` [m] of the pipe of `mass` [kg], whose axial weight is added to the tension in two halves. */
-static double side_load(mesh_march *march, double depth, double mass, double length)
+/* [N/m] Side load per metre on the wall at depth [m] of a pipe of `weight` [kg/m]: lateral weight and tension times
+ * curvature. */
+static double side_load(const mesh_march *march, double depth, double weight)
 {
     const double *gravity = march->scene->gravity;
     double x[3], t[3], bend[3], load[3];
     dmb_hole_frame(&march->scene->hole, depth, x, t, bend);
-    const double along = dmb_vec3_dot(gravity, t), weight = mass / length;
-    march->axial += 0.5 * mass * along;
+    const double along = dmb_vec3_dot(gravity, t);
     for (int k = 0; k < 3; k++) load[k] = weight * (gravity[k] - along * t[k]) + march->axial * bend[k];
-    march->axial += 0.5 * mass * along;
     return dmb_vec3_norm(load);
 }
 
-/* [-] Error of the bending stress of one element, relative to the yield strength. */
+/* [-] Error of the bending stress of one element, relative to the yield strength. Its far node carries half of it, so
+ * that the tension is that of its middle. */
 static double element_error(mesh_march *march, const dmb_pipe_def *def, uint32_t e)
 {
     const dmb_scene *scene = march->scene;
     const dmb_element_type *type = scene->types + scene->element_type[e];
     const uint32_t node = scene->element_node[e];
     const double depth = 0.5 * (scene->reference_depth[node] + scene->reference_depth[node + 1]);
-    const double q = side_load(march, depth, type->weight_mass, type->length), s = contact_spacing(def, type->length);
+    while (march->node > node + 1) march->axial += axial_weight(scene, --march->node);
+    const double q = side_load(march, depth, type->weight_mass / type->length);
+    const double s = contact_spacing(def, type->length);
     const double EI = fmin(type->strain_stiffness[4], type->strain_stiffness[5]);
     const double yield = def->yield_strength > 0.0 ? def->yield_strength / def->young_modulus : DMB_USUAL_YIELD_STRAIN;
     return q * s * s / 12.0 * 0.5 * def->outer_diameter / (EI * yield);
 }
 
-/* Pipes that are not flexible have no error and contribute no weight. */
+/* Pipes that are not flexible have no error. */
 static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_pipe_map *pipe)
 {
     double largest = 0.0;
@@ -65,18 +117,19 @@ static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_p
 /* Called with each pipe of a string, from the far end. */
 typedef void (*pipe_visit)(void *context, const dmb_pipe_run *run, uint32_t pipe, double error);
 
-/* Upwards from the far end, because the tension of a place is the weight of the flexible pipes below it. */
+/* Upwards from the far end, because the tension of a place is the weight below it, as of a string whose far end is free
+ * and that slides without friction. */
 static void visit_pipes(const dmb_model *model, uint32_t string, pipe_visit visit, void *context)
 {
     const dmb_scene *scene = model->scene;
-    mesh_march march = {scene, 0.0};
+    const dmb_string_map *map = scene->strings + string;
+    mesh_march march = {scene, hanging_weight(scene, string), map->first_node + map->node_count};
     for (uint32_t i = model->runs.count; i-- > 0;) {
         const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
         if (run->string != string) continue;
         for (uint32_t k = run->count; k-- > 0;) {
             const uint32_t pipe = run->first + k;
-            const dmb_pipe_map *map = scene->pipes + scene->strings[string].first_pipe + pipe;
-            visit(context, run, pipe, pipe_error(&march, &run->def, map));
+            visit(context, run, pipe, pipe_error(&march, &run->def, scene->pipes + map->first_pipe + pipe));
         }
     }
 }
