@@ -75,10 +75,15 @@ static void put_bending_moment(dmb_text_file *file, const void *context, const d
     dmb_vtk_put_tuple(file, &moment, 1);
 }
 
-/* A rigid pipe counts as one element. */
-static uint32_t elements_of(const dmb_pipe_map *pipe)
+/* Whole elements of the pipe before the station plus the fraction of the next one, as its mesh has them: tool joints
+ * belong to the node they are fixed to, rings divide a pipe unequally. A rigid pipe counts as one element. */
+static double elements_before(const dmb_sim *sim, const dmb_vtk_station *at, const dmb_pipe_map *pipe)
 {
-    return pipe->elements > 0 ? pipe->elements : 1;
+    dmb_material_point point;
+    if (pipe->elements == 0) return at->place.fraction;
+    (void)dmb_material_point_of(sim, at->place, &point);
+    if (point.fixed) return point.node - sim->scene->element_node[pipe->element];
+    return point.element - pipe->element + point.fraction;
 }
 
 /* Normal force, linear between the contact points at the two ends of an element. */
@@ -86,8 +91,9 @@ static void put_normal_force(dmb_text_file *file, const void *context, const dmb
 {
     const dmb_sim *sim = context;
     const dmb_string_map *map = &sim->scene->strings[at->string];
-    const uint32_t elements = elements_of(&sim->scene->pipes[map->first_pipe + at->place.pipe]);
-    const double along = at->place.fraction * elements;
+    const dmb_pipe_map *pipe_map = &sim->scene->pipes[map->first_pipe + at->place.pipe];
+    const uint32_t elements = pipe_map->elements > 0 ? pipe_map->elements : 1;
+    const double along = elements_before(sim, at, pipe_map);
     const uint32_t passed = along < elements ? (uint32_t)along : elements - 1;
     const dmb_id string = at->place.part;
     const uint32_t pipe = at->place.pipe;

@@ -130,6 +130,60 @@ static scene make(void)
     return m;
 }
 
+/* Two pipes of 10 m that lie in a level hole, with tool joints of 2 m or a ring at 3 m of the second. */
+static rig lying(int ring, dmb_id *string)
+{
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_stabiliser_def stabiliser = dmb_stabiliser_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    add_wall(&s, &wall);
+    pipe.length = 10.0;
+    pipe.joint_length = ring ? 0.0 : 2.0;
+    *string = add_pipes(&s, &pipe, 2);
+    stabiliser.pipe = 1;
+    stabiliser.fraction = 0.3;
+    stabiliser.outer_diameter = 0.075;
+    if (ring) must_model(&s, dmb_model_add_stabiliser(s.model, &stabiliser, NULL));
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    return s;
+}
+
+static double force_of(const rig *s, uint32_t contact)
+{
+    dmb_contact found = dmb_contact_default();
+    must(s, dmb_query_contact(s->sim, contact, &found));
+    return found.normal_force;
+}
+
+/* A picture has the force of a node where the node is, half of it in the middle of an element whose other node is free:
+ * pipes of 8 m with tool joints of 2 m, ten points a pipe; a pipe that a ring divides at 3 m, a point each 0.5 m. */
+static void normal_forces(void **state)
+{
+    double drawn[64];
+    dmb_id string;
+    rig s = lying(0, &string);
+    (void)state;
+    (void)written(dmb_write_vtk_strings(s.sim, 10, file_name()), file_name());
+    assert_int_equal(numbers_of("normal_force", drawn, 64), 21);
+    const double first = force_of(&s, 0), second = force_of(&s, 1);
+    check_relative("middle of the first pipe's tube [N]", drawn[4], 0.5 * first, 1e-6);
+    for (int i = 8; i <= 10; i++) check_relative("first tool joint [N]", drawn[i], first, 1e-6);
+    check_relative("middle of the second pipe's tube [N]", drawn[14], 0.5 * (first + second), 1e-6);
+    for (int i = 18; i <= 20; i++) check_relative("second tool joint [N]", drawn[i], second, 1e-6);
+    rig_close(&s);
+    s = lying(1, &string);
+    (void)written(dmb_write_vtk_strings(s.sim, 10, file_name()), file_name());
+    assert_int_equal(numbers_of("normal_force", drawn, 64), 31);
+    check_below("pipe within the ring, off the wall [N]", fabs(drawn[16]), 1e-9);
+    check_relative("middle before the ring [N]", drawn[13], 0.5 * force_of(&s, 0), 1e-6);
+    check_relative("middle behind the ring [N]", drawn[23], 0.5 * force_of(&s, 3), 1e-6);
+    check_relative("end [N]", drawn[30], force_of(&s, 3), 1e-6);
+    rig_close(&s);
+}
+
 static void strings(void **state)
 {
     (void)state;
@@ -224,6 +278,7 @@ static void bad_holes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(normal_forces),
         cmocka_unit_test(strings),
         cmocka_unit_test(hole),
         cmocka_unit_test(bad_holes),
