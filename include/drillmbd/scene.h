@@ -644,7 +644,7 @@ typedef struct dmb_motor {
     double flow; /* [m3/s] through the motor, > 0 */
     double pressure; /* [Pa] drop across it at stall, > 0 in place of stall_torque; with a table > 0, or 0: table_pressure */
     double efficiency; /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
-    double table_flow, table_pressure; /* [m3/s; Pa] of the table, > 0, or 0 (default): flow, pressure */
+    double table_flow, table_pressure; /* [m3/s; Pa] of the table: > 0, or 0 (default): flow; > 0 with a pressure, else >= 0 */
     uint32_t table_count, reserved; /* [-] 0 (default): a line; 2 .. 15: a table, without stall_torque and displacement */
     double table_speed[15]; /* [rad/s] strictly increasing from 0, shape (table_count) */
     double table_torque[15]; /* [N m] >= 0, > 0 at the first, 0 at the last, shape (table_count) */

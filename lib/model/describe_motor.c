@@ -33,7 +33,8 @@ static void check_line(dmb_check *check, const dmb_motor *motor)
     dmb_check_within(check, "table_pressure", motor->table_pressure, 0.0, 0.0);
 }
 
-/* A pressure needs that of the table: torque is in proportion to it. */
+/* A pressure requires that of the table, because torques are in proportion to it: without it the torques of the table
+ * would pass for those at any pressure. */
 static void check_table(dmb_check *check, const dmb_motor *motor)
 {
     const uint32_t n = motor->table_count;
@@ -78,6 +79,14 @@ static double take_line(const dmb_motor *motor, dmb_drive_def *drive)
     return speed;
 }
 
+/* Pressure per torque by the drop at stall, `pressure` or else that of the table; without both by the power of the mud
+ * without losses, dp Q = T w. */
+static double mud_pressure_of(const dmb_motor *motor, double stall_torque, double speed)
+{
+    const double drop = motor->pressure > 0.0 ? motor->pressure : motor->table_pressure;
+    return drop > 0.0 ? drop / stall_torque : speed / motor->flow;
+}
+
 /* G(w0 - w) = T(w): points in reverse. It brakes along its last line, to where that has the torque at stall. */
 static double read_table(const dmb_motor *motor, dmb_drive_def *drive)
 {
@@ -100,8 +109,7 @@ static double read_table(const dmb_motor *motor, dmb_drive_def *drive)
     }
     drive->gain = 0.0;
     drive->limit_high = DMB_FORCE_MAX;
-    drive->mud_pressure =
-        motor->pressure > 0.0 ? motor->pressure / (strong * motor->table_torque[0]) : speed / motor->flow;
+    drive->mud_pressure = mud_pressure_of(motor, strong * motor->table_torque[0], speed);
     return speed;
 }
 

@@ -739,7 +739,13 @@ static void motors_by_tables(void **state)
     assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
     check_relative("pressure by torque, V = 2 pi Q/w0 [Pa/(N m)]", drive.mud_pressure, 4.0 / motor_flow, 1e-15);
     motor.pressure = stall_pressure;
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_ERR_VALUE); /* at which pressure is the table? */
     motor.table_pressure = 0.5 * stall_pressure;
+    motor.pressure = 0.0;
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
+    check_relative("the same at the pressure of the table [Pa/(N m)]", drive.mud_pressure, 0.5 * stall_pressure / 10e3,
+                   1e-15);
+    motor.pressure = stall_pressure;
     assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
     check_relative("pressure by torque of the table [Pa/(N m)]", drive.mud_pressure, 0.5 * stall_pressure / 10e3,
                    1e-15);
