@@ -81,7 +81,7 @@ static int32_t linearise(dmb_response_work *w)
                                         .inertial_axes = w->options.axes == DMB_RESPONSE_AXES_AT_REST,
                                         .spin = w->options.spin};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
-    if (status == DMB_OK) status = check_balance(w);
+    if (status >= 0) status = check_balance(w);
     if (status >= 0) status = dmb_linear_turn_on(w->linear, w->sim, &options, &w->turned);
     if (status < 0) return status;
     w->linear->work->magic = DMB_HANDLE_SIM; /* permits queries on the copy */
