@@ -575,7 +575,7 @@ class CommandTest(FolderTest):
             study = report.Study(scene.loads(text), CommandOutput(None, "x.toml", scene.loads(text), "report", True))
             if failing:
                 setattr(study, failing, lambda: (_ for _ in ()).throw(ArithmeticError("no solution")))
-            study.ask()
+            study.compute()
             return {tile.title: (tile.verdict, tile.text) for tile in study.tiles}
 
         without_load = SCENE.replace('end = "20 ms"', 'end = "2 ms"')

@@ -319,8 +319,8 @@ class EndTest(FolderTest):
     def test_every_command_stops(self):
         """Ctrl-C within an analysis: status 130, and a summary with what is known."""
         from drillmbd import commands
-        for name in commands.QUESTIONS:
-            with mock.patch.dict(commands.QUESTIONS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
+        for name in commands.COMMANDS:
+            with mock.patch.dict(commands.COMMANDS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
                 self.ask(name, self.scene, "-o", self.folder / "out", status=130)
             found = self.summary()
             self.assertEqual((found["command"], found["status"]), (name, 130))
@@ -333,7 +333,7 @@ class EndTest(FolderTest):
         for end, status in (("program()", 130),):  # sys.exit(main()) has -2 there by Python 3.11
             self.write("stopped.py",
                        "import sys\nfrom drillmbd import commands\nfrom drillmbd.command import main, program\n"
-                       f"commands.QUESTIONS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
+                       f"commands.COMMANDS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
             process = subprocess.run([COMMAND[0], "-m", "stopped", "check", self.scene, "-o", self.folder / "out"],
                                      capture_output=True, text=True,
                                      env=ENVIRONMENT, cwd=self.folder)
@@ -367,7 +367,7 @@ class EndTest(FolderTest):
         from drillmbd import commands
         words = ("sweep", self.scene, "stuck", "--vary", "hole.mu_dynamic=0.1:0.3:3", "-o", self.folder / "out", "--",
                  "--pull", "20 kN")
-        real, seen = commands.QUESTIONS["stuck"], []
+        real, seen = commands.COMMANDS["stuck"], []
 
         def stop_at_third(*arguments):
             seen.append(0)
@@ -375,7 +375,7 @@ class EndTest(FolderTest):
                 raise KeyboardInterrupt
             return real(*arguments)
 
-        with mock.patch.dict(commands.QUESTIONS, {"stuck": stop_at_third}):
+        with mock.patch.dict(commands.COMMANDS, {"stuck": stop_at_third}):
             self.ask(*words, status=130)
             found = self.summary()
             self.assertEqual((found["status"], found["computed"], found["cases"]), (130, 2, 3))

@@ -51,7 +51,7 @@ class DrawnTest(FolderTest):
         takes."""
         for question in ("torque-drag", "static"):
             sample = SceneSample(LEVEL + RIG + SHARE + PUSH + failure("rig-torque") + failure("rig-pull", limit="3 kN"),
-                                 asked=question)
+                                 given_question=question)
             for number in range(3):
                 one = sample(number, np.random.default_rng(number).standard_normal(sample.dimension))
                 friction, push, torque = one.inputs

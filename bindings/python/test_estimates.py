@@ -256,16 +256,16 @@ class IndicesTest(unittest.TestCase):
 
     def test_too_few_rows_are_named(self):
         """A first-order index above the total one is an error of sampling, with the number of rows that would do."""
-        from drillmbd.probability import answer
+        from drillmbd.probability import results
         for first, wanted in (([0.9, 0.2], 1), ([0.7, 0.2], 0)):
             ends = np.array([[0.0, 1.0]] * 2)
-            made = answer.Answer.__new__(answer.Answer)
-            made.sample, made.asked, made.output = (unittest.mock.MagicMock(), unittest.mock.MagicMock(),
-                                                    unittest.mock.Mock(summary={}))
+            made = results.StudyResults.__new__(results.StudyResults)
+            made.sample, made.settings, made.output = (unittest.mock.MagicMock(), unittest.mock.MagicMock(),
+                                                       unittest.mock.Mock(summary={}))
             made.sample.draw.sizes, made.limit, made.scales = [0], 0, None
             made.options = unittest.mock.Mock(indices=16)
             found = Indices(["a", "b"], np.array(first), np.array([0.8, 0.3]), ends, ends, 64, 0)
-            with unittest.mock.patch.object(answer, "sobol_indices", return_value=found):
+            with unittest.mock.patch.object(results, "sobol_indices", return_value=found):
                 made._indices(unittest.mock.Mock())
             self.assertEqual(made.output.note_text.call_count, wanted)
             if wanted:

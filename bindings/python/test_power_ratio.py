@@ -115,8 +115,8 @@ def advance(look):
     return float((0.5 * np.diff(look.times) * (look.outputs["rig"][1:] + look.outputs["rig"][:-1])).sum())
 
 
-def studied(**changes):
-    sample = SceneSample(SCENE, own={"power ratio": power_ratio, "advance": advance}, changes=changes)
+def studied(**overrides):
+    sample = SceneSample(SCENE, own={"power ratio": power_ratio, "advance": advance}, overrides=overrides)
     points = Points("monte-carlo", 2, sample.dimension, SAMPLES)
     found = Study(sample, engines.processes(2)).run(range(SAMPLES), points.z)
     values = [sample.draw.values(points.z(i))["friction"] for i in range(SAMPLES)]

@@ -88,9 +88,9 @@ WEIGHT = 9.81 * 7850.0 * AREA  # [N/m]
 LIFTED = (72.0 * 2.1e11 * INERTIA * 0.0105 / WEIGHT) ** 0.25
 
 
-def sampled(failures, text=RIG, changes=None, own=None):
+def sampled(failures, text=RIG, overrides=None, own=None):
     """The demands of one sample, by name."""
-    sample = SceneSample(text + failures, changes=changes or {}, own=own or {})
+    sample = SceneSample(text + failures, overrides=overrides or {}, own=own or {})
     found = sample(0, np.zeros(sample.dimension))
     if found.status != DONE:
         raise AssertionError(found.message)
@@ -235,7 +235,7 @@ class DrawTest(unittest.TestCase):
     def test_changes_reach_the_model(self):
         draw = Draw(scene.loads(ALL))
         values = draw.values(np.random.default_rng(2).standard_normal(draw.dimension))
-        varied = scene.loads(ALL, changes=draw.changes(values))
+        varied = scene.loads(ALL, changes=draw.overrides(values))
         calls = {name: [arguments for called, arguments in varied.model.calls if called == name]
                  for name, _ in varied.model.calls}
         wall = calls["add_wall"][0][0]
@@ -320,7 +320,7 @@ limit = "2 kN m"
         draw = Draw(scene.loads(self.TEXT))
         values = draw.values(np.random.default_rng(1).standard_normal(draw.dimension))
         self.assertEqual([len(values["friction"]), len(values["size"])], [11, 7])
-        made = scene.loads(self.TEXT, changes=draw.changes(values))
+        made = scene.loads(self.TEXT, changes=draw.overrides(values))
         for depth in (2.5, 5.5, 9.0, 12.5, 18.5, 30.0):
             known = np.interp(depth, 1.0 + 3.0 * np.arange(7), values["size"])
             self.assertAlmostEqual(made.model.hole(depth).diameter, known, 12)
@@ -336,13 +336,13 @@ limit = "2 kN m"
         text = self.TEXT.replace("count = 10", "count = 16").replace('kind = "rig-torque"\nlimit = "2 kN m"',
                                                                      'kind = "rig-push"\nlimit = "9 kN"')
         text = text[:text.index('[[variability.field]]\nname = "size"')] + text[text.index("[[failure]]"):]
-        sample = SceneSample(text, changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0],
-                                            "static.lay_on_wall": True,
-                                            "static.slip_axial": "1 cm/s"})
+        sample = SceneSample(text, overrides={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0],
+                                              "static.lay_on_wall": True,
+                                              "static.slip_axial": "1 cm/s"})
         z = np.random.default_rng(4).standard_normal(sample.dimension)
         found = sample(0, z)
         values = sample.draw.values(z)
-        made = scene.loads(text, changes={**sample.changes, **sample.draw.changes(values)})
+        made = scene.loads(text, changes={**sample.overrides, **sample.draw.overrides(values)})
         with made.new_sim() as sim:
             sim.static(**made.fields_of("static"))
             profile = sim.profile(made.names["main"], 16)
@@ -396,7 +396,7 @@ class LimitTest(unittest.TestCase):
     def test_lock_up_by_friction(self):
         """Sliding in, the rig pushes more than arrives by mu times the weight that it does not bear itself."""
         weight = WEIGHT * (100.0 - 2.0 / 3.0 * LIFTED)
-        found, margins = sampled(failure("lock-up", limit=0.99), changes={
+        found, margins = sampled(failure("lock-up", limit=0.99), overrides={
             "environment.gravity": [0, 0, "-9.81 m/s2"], "hole.mu_static": 0.3, "hole.mu_dynamic": 0.3,
             "load.moment": [0, 0, 0], "static.lay_on_wall": True, "static.slip_axial": "1 cm/s",
             "string[0].pipes.count": 100})
@@ -407,29 +407,29 @@ class LimitTest(unittest.TestCase):
     def test_connections(self):
         kinds = failure("connection-torque", limit="400 N m") + failure("back-off", limit="400 N m")
         tight, _ = sampled(kinds)
-        loose, margins = sampled(kinds, changes={"load.moment": ["500 N m", 0, 0]})
+        loose, margins = sampled(kinds, overrides={"load.moment": ["500 N m", 0, 0]})
         self.assertAlmostEqual(tight["connection-torque"], 500.0, 3)
         self.assertAlmostEqual(tight["back-off"], 0.0, 3)
         self.assertAlmostEqual(loose["back-off"], 500.0, 3)
         self.assertAlmostEqual(margins["back-off"], -100.0, 3)
 
     def test_stress_and_buckling(self):
-        found, _ = sampled(failure("stress", strength="400 MPa"), changes={"load.moment": [0, 0, 0]})
+        found, _ = sampled(failure("stress", strength="400 MPa"), overrides={"load.moment": [0, 0, 0]})
         self.assertAlmostEqual(found["stress"] / (2000.0 / AREA / 400e6), 1.0, 5)
         torsion = 500.0 * 0.0365 / (2.0 * INERTIA)
-        found, margins = sampled(failure("stress", strength="50 MPa"), changes={"time_function[0].segment.h0": 0})
+        found, margins = sampled(failure("stress", strength="50 MPa"), overrides={"time_function[0].segment.h0": 0})
         self.assertAlmostEqual(found["stress"] / (math.sqrt(3.0) * torsion / 50e6), 1.0, 5)
         self.assertAlmostEqual(margins["stress"], 1.0 - found["stress"], 12)
-        found, _ = sampled(failure("helical-buckling"), changes={"environment.gravity": [0, 0, "-9.81 m/s2"],
-                                                                 "load.moment": [0, 0, 0],
-                                                                "static.lay_on_wall": True})
+        found, _ = sampled(failure("helical-buckling"), overrides={"environment.gravity": [0, 0, "-9.81 m/s2"],
+                                                                   "load.moment": [0, 0, 0],
+                                                                   "static.lay_on_wall": True})
         helical = 2.0 * math.sqrt(2.0) * math.sqrt(2.1e11 * INERTIA * WEIGHT / 0.0105)
         self.assertLess(abs(found["helical-buckling"] / (2000.0 / helical) - 1.0), 0.01)
 
     def test_wall_pressure(self):
         """A string at rest in a horizontal hole presses most where it begins to lie: the site of 1 m there bears w l/3
         and w."""
-        found, _ = sampled(failure("wall-pressure", limit="1 MPa", width="20 mm"), changes={
+        found, _ = sampled(failure("wall-pressure", limit="1 MPa", width="20 mm"), overrides={
             "environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True,
             "bit.mass": "1 g",
             "time_function[0].segment.h0": 0})
@@ -511,7 +511,7 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
         self.assertEqual(set(KINDS) - set(limits.BESIDE), set(limits.HOW))
 
     def test_what_cannot_be_solved_is_told(self):
-        sample = SceneSample(RIG + failure("rig-push", limit="1 kN"), changes={
+        sample = SceneSample(RIG + failure("rig-push", limit="1 kN"), overrides={
             "variability.scatter.key": "hole.diameter", "variability.scatter.low": "10 mm",
             "variability.scatter.high": "20 mm"})
         found = sample(3, np.zeros(sample.dimension))

@@ -124,7 +124,7 @@ correlation_time = "0.1 s"
 
 def known_demands(sample, z):
     """Torque and drag by the analyses of the library on the whole scene, read anew for the sample."""
-    made = scene.loads(sample.text, changes={**sample.draw.changes(sample.draw.values(z)),
+    made = scene.loads(sample.text, changes={**sample.draw.overrides(sample.draw.values(z)),
                                              "string[0].pipes[0].yield_strength": "500 MPa"})
     plan = operating(made)
     with made.new_sim() as sim:
@@ -214,7 +214,7 @@ class SoftTest(unittest.TestCase):
                'mean = 0\ndeviation = "0.5 deg"\ncorrelation_length = "1000 km"\nkernel = "gaussian"\n'
         for question in ("torque-drag", "static"):
             sample = SceneSample(LEVEL + more + failure("leaves-seam", limit="0.4 m")
-                                 + failure("rig-pull", limit="3 kN"), asked=question)
+                                 + failure("rig-pull", limit="3 kN"), given_question=question)
             z = np.zeros(sample.dimension)
             z[1] = 1.3
             known = 60.0 * math.sin(math.radians(0.5 * 1.3 * sample.draw.fields[0][1].matrix[0, 0]))
@@ -272,7 +272,7 @@ class StaticTest(unittest.TestCase):
     def test_worst_of_three(self):
         """Pushed in with the load of the bit, pulled out without, rotated with its torque; the bit load is 0 at time
         0."""
-        sample = SceneSample(LEVEL + FORCES, asked="static")
+        sample = SceneSample(LEVEL + FORCES, given_question="static")
         inertia = math.pi / 64.0 * (0.073 ** 4 - 0.061 ** 4)
         # [m] not on the floor behind the rig, which bears 2/3 of its weight
         lifted = (72.0 * 2.1e11 * inertia * 0.0105 / (WEIGHT / 60.0)) ** 0.25
@@ -288,10 +288,11 @@ class StaticTest(unittest.TestCase):
         with self.assertRaisesRegex(CannotDraw,
                                     r"failure stick-slip \(stick-slip\): the question static says nothing about it; "
                                     r"ask --question run"):
-            SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("stick-slip"), asked="static").names
+            SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("stick-slip"),
+                        given_question="static").names
         with self.assertRaisesRegex(CannotDraw, "from = 1 s is for runs in time"):
             SceneSample(LEVEL.replace('question = "torque-drag"', "")
-                        + failure("rig-push", limit="1 kN", **{"from": "1 s"}), asked="torque-drag").names
+                        + failure("rig-push", limit="1 kN", **{"from": "1 s"}), given_question="torque-drag").names
         with self.assertRaisesRegex(scene.SceneError, "needs question = \"static\" or|needs a run in time"):
             scene.loads(LEVEL + failure("stick-slip"))
 

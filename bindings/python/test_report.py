@@ -354,7 +354,7 @@ class VerdictTest(unittest.TestCase):
         made = report.Study(scene.loads(text), results.CommandOutput(None, "x.toml", scene.loads(text), "report", True))
         for name, value in more.items():
             setattr(made, name, value)
-        made.ask()
+        made.compute()
         return made, {tile.title: tile for tile in made.tiles}
 
     def test_page_of_a_scene(self):
@@ -481,7 +481,7 @@ class VerdictTest(unittest.TestCase):
                 raise KeyboardInterrupt
             return shape(sim)
         shape, made._shape = made._shape, stopped
-        made.ask()
+        made.compute()
         self.assertTrue(made.out.interrupted)
         self.assertEqual({tile.verdict for tile in made.tiles
                           if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
@@ -642,7 +642,7 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         study = report.Study(scene.load(self.scene), results.CommandOutput(None, "x.toml", scene.load(self.scene),
                                                                            "report", True))
         study._speeds = lambda: (_ for _ in ()).throw(ArithmeticError("no solution"))
-        study.ask()
+        study.compute()
         tile = next(one for one in study.tiles if one.title == "Critical speeds")
         self.assertEqual((tile.verdict, tile.text), ("NOT COMPUTED", "no solution"))
         self.assertIn("程序信息（英文原文）：no solution", language.Language("zh")(tile.text))

@@ -139,8 +139,8 @@ class StickSlipTest(unittest.TestCase):
         count, shares = 10, {}
         for speed in (1.0, 3.0, 5.0):
             for load in (250, 500):
-                sample = SceneSample(SCENE, changes={"time_function[0].segment.h1": f"{speed} rad/s",
-                                                     "bit.mass": f"{load / 10.0} kg"})
+                sample = SceneSample(SCENE, overrides={"time_function[0].segment.h1": f"{speed} rad/s",
+                                                       "bit.mass": f"{load / 10.0} kg"})
                 points = Points("latin-hypercube", 5, 1, count, 1)
                 found = Study(sample, engines.processes(2)).run(range(count), points.z)
                 self.assertEqual([one.message for one in found if one.message], [])
@@ -167,7 +167,7 @@ class StickSlipTest(unittest.TestCase):
         for stribeck, smoothing, step, bound in ((4.0, 0.005, 2.0, 0.04), (1.0, 0.001, 0.5, 0.025),
                                                  (0.25, 0.00025, 0.25, 0.018)):
             text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
-            sample = SceneSample(text, changes={
+            sample = SceneSample(text, overrides={
                 "time_function[0].segment.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s",
                 "results.interval": "10 ms",
                 "hole.smoothing_speed": f"{smoothing} mm/s", "run.step": f"{step} ms"})

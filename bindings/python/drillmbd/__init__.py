@@ -1,5 +1,5 @@
-"""libdrillmbd from Python: describe - compile - run - ask. Needs ctypes only; uses numpy for arrays, pandas for frames,
-matplotlib for pictures where they are there.
+"""libdrillmbd from Python: describe - compile - run - query. Needs ctypes only; uses numpy for arrays, pandas for
+frames, matplotlib for pictures where they are there.
 
     import drillmbd as mbd
 

@@ -108,15 +108,16 @@ class Keep:
         wanted = 3 if provides & PROVIDES_INTEGRAL else 2 if provides & PROVIDES_RATE else 1
 
         def call(_context: Any, time: float, out: Any) -> None:
-            answer = function(time)
-            if type(answer) is tuple and len(answer) == wanted and all(type(one) is float for one in answer):  # at once
+            returned = function(time)
+            # at once
+            if type(returned) is tuple and len(returned) == wanted and all(type(one) is float for one in returned):
                 for i in range(wanted):
-                    out[i] = answer[i]
+                    out[i] = returned[i]
                 return
             if wanted == 1:
-                out[0] = real(answer, "time_function", "result of the function")
+                out[0] = real(returned, "time_function", "result of the function")
                 return
-            for i, value in enumerate(reals(answer, "time_function", "result of the function", wanted)):
+            for i, value in enumerate(reals(returned, "time_function", "result of the function", wanted)):
                 out[i] = value
 
         return self._c_function(TIME_FN, call)
@@ -124,8 +125,8 @@ class Keep:
     def constraint(self, function: Callable[..., Any], rows: int, provides: int) -> Any:
         """The C function around a Python function of time and poses."""
         def call(_context: Any, time: float, count: int, poses: Any, value: Any, jacobian: Any) -> None:
-            answer = function(time, [list(poses[i]) for i in range(count)])
-            values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
+            returned = function(time, [list(poses[i]) for i in range(count)])
+            values, derivatives = returned if provides & PROVIDES_JACOBIAN else (returned, None)
             for i, number in enumerate(reals(flat(values), "constraint", "values of the function", rows)):
                 value[i] = number
             if derivatives is not None:
@@ -146,10 +147,10 @@ class Keep:
                  potential: Any, memory: Any) -> None:
             motion = [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)]
             law = memory.contents
-            answer = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
-            parts = list(answer) if wanted > 1 else [answer]
+            returned = function(time, *motion, law.accepted[:states], law.step) if states else function(time, *motion)
+            parts = list(returned) if wanted > 1 else [returned]
             if len(parts) != wanted:
-                refuse_type("force", "result of the function", answer, f"be a tuple of {wanted}: force{words}")
+                refuse_type("force", "result of the function", returned, f"be a tuple of {wanted}: force{words}")
             if states:
                 for i, number in enumerate(reals(flat(parts.pop()), "force", "state", states)):
                     law.trial[i] = number
@@ -168,14 +169,14 @@ class Keep:
         """The C function around a Python law of friction on the wall."""
         def call(_context: Any, at: Any, force: Any, by_slip: Any, by_normal: Any, memory: Any) -> None:
             law, arguments = memory.contents, at.contents
-            answer = list(function(arguments, law.accepted[:states], law.step) if states else function(arguments))
-            if len(answer) != 3 + (states > 0):
-                refuse_type("friction", "result of the function", answer,
+            returned = list(function(arguments, law.accepted[:states], law.step) if states else function(arguments))
+            if len(returned) != 3 + (states > 0):
+                refuse_type("friction", "result of the function", returned,
                             f"be a tuple of force, by_slip, by_normal{', state' if states else ''}")
             for to, count, word in ((force, 2, "force"), (by_slip, 4, "by_slip"), (by_normal, 2, "by_normal")):
-                for i, number in enumerate(reals(flat(answer.pop(0)), "friction", word, count)):
+                for i, number in enumerate(reals(flat(returned.pop(0)), "friction", word, count)):
                     to[i] = number
-            for i, number in enumerate(reals(flat(answer.pop(0)), "friction", "state", states) if states else ()):
+            for i, number in enumerate(reals(flat(returned.pop(0)), "friction", "state", states) if states else ()):
                 law.trial[i] = number
 
         return self._c_function(FRICTION_FN, call)

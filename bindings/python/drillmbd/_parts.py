@@ -74,7 +74,7 @@ class Parts:
         return ""
 
     def why(self, status: int, word: str, arguments: tuple[Any, ...]) -> str:
-        """The message of a question that failed for its part or place; the text of the status where it did not."""
+        """The message of a query that failed for its part or place; the text of the status where it did not."""
         for one in arguments:
             wrong = ""
             if isinstance(one, Place):

@@ -214,7 +214,7 @@ def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
 
 class Sized(Record):
     """A struct with struct_size, filled with the library's defaults and then with the given fields."""
-    status: Any = 0  # of the call that answered with it
+    status: Any = 0  # of the call that returned it
     _template: ClassVar[bytes] = b""
 
     def __init__(self, **fields: Any) -> None:
@@ -226,7 +226,7 @@ class Sized(Record):
 
     @classmethod
     def _learn(cls) -> bytes:
-        """The defaults, asked from the library once."""
+        """The defaults, read from the library once."""
         from ._library import lib
         from .errors import check
         blank = cls.from_buffer_copy(bytes(ctypes.sizeof(cls)))

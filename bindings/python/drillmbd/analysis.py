@@ -112,12 +112,13 @@ class Analyses(AnalysisCalls):
             if frequencies is not None:
                 frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
                 options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-            given, asked, handle = (row_of(Excitation, excitations, "excitations"),
-                                    outputs_of(outputs, self._parts, "response"), c_void_p())
-            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked,
+            given, requested, handle = (row_of(Excitation, excitations, "excitations"),
+                                        outputs_of(outputs, self._parts, "response"), c_void_p())
+            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), requested,
                                    len(outputs),
                                                    byref(handle)))
-            return Response(handle, [one.amplitude for one in given], [output_text(one, self._handle) for one in asked])
+            return Response(handle, [one.amplitude for one in given],
+                            [output_text(one, self._handle) for one in requested])
 
         @mirrors("dmb_analysis_stepped_sine")
         def stepped_sine(self, frequency: float, outputs: Sequence[Any], options: Any = None,
@@ -126,10 +127,10 @@ class Analyses(AnalysisCalls):
             and then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
             options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
             report: Any = STRUCTS["dmb_stepped_sine_report"]()
-            asked, width = outputs_of(outputs, self._parts, "stepped sine"), 1 + options.harmonics
+            requested, width = outputs_of(outputs, self._parts, "stepped sine"), 1 + options.harmonics
             frequency = real(frequency, "stepped sine", "frequency", "Hz")
             values = (c_double * (2 * width * len(outputs)))()
-            report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
+            report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), requested,
                                                    len(outputs), values, byref(report)))
             found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
             return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
@@ -154,14 +155,13 @@ class Analyses(AnalysisCalls):
             options = struct(SpeedsOptions, options, fields)
             room = whole(room, "speeds", "room", 1, 2 ** 20)
             allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
-            shakes, asked = row_of(Order, orders, "orders"), outputs_of(outputs, self._parts, "speeds")
+            shakes, requested = row_of(Order, orders, "orders"), outputs_of(outputs, self._parts, "speeds")
             bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
             severity = (c_double * options.points)()
             found = SpeedBands()
             options.report = pointer(found.report)
-            found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked,
-                                                  allowed,
-                                                 len(outputs), bands, byref(count), severity))
+            found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders),
+                                                  requested, allowed, len(outputs), bands, byref(count), severity))
             options.report = None
             found.extend(list(bands)[:count.value])
             width = (options.speed_high - options.speed_low) / max(options.points - 1, 1)
@@ -175,20 +175,21 @@ class Analyses(AnalysisCalls):
             """Hook load and torque of the rig by depth [m] and operation: Operation structs, or OPERATION_... for usual
             ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
             options = struct(TorqueDragOptions, options, fields)
-            asked = [as_operation(one) for one in (OPERATIONS if operations is None else operations)]
-            if not asked:
+            requested = [as_operation(one) for one in (OPERATIONS if operations is None else operations)]
+            if not requested:
                 refuse_value("torque and drag", "operations", operations, "be one at least")
             if depths is not None:
                 below = reals(depths, "torque and drag", "depths", unit="m")
                 options.depth_count = len(below)
                 options.depths = (c_double * len(below))(*below)
-            count = max(1, options.depth_count) * len(asked)
+            count = max(1, options.depth_count) * len(requested)
             rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
             status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options),
-                                            (Operation * len(asked))(*asked),
-                                            len(asked), rows))
+                                            (Operation * len(requested))(*requested),
+                                            len(requested), rows))
             options.depths = None
-            return TorqueDrag(asked, [list(rows[i:i + len(asked)]) for i in range(0, count, len(asked))], status)
+            width = len(requested)
+            return TorqueDrag(requested, [list(rows[i:i + width]) for i in range(0, count, width)], status)
 
         @mirrors("dmb_analysis_torque_drag_profile")
         def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
@@ -353,7 +354,7 @@ class Shaped(Handle):
     """A result with a shape at each place."""
     _parts: Parts
 
-    def _answered(self, place: Place, status: int) -> int:
+    def _place_status(self, place: Place, status: int) -> int:
         """The status of a query of a place, or an Error with the reason why the place is wrong."""
         if status < 0 and not is_closed(self._handle, status):
             raise Error(status, self._parts.why(status, "shape", (place,)))
@@ -387,7 +388,7 @@ class Buckling(Shaped):
         """[m, rad] displacement and rotation of a section, world frame; six numbers"""
         values, place = (c_double * 6)(), as_place(place, self._parts)
         mode = index_of("buckling", "mode", mode, len(self.factors))
-        self._answered(place, _lib.dmb_buckling_shape(self._handle, mode, place, values))
+        self._place_status(place, _lib.dmb_buckling_shape(self._handle, mode, place, values))
         return list(values)
 
     def shapes(self, mode: int, places: Sequence[Place]) -> Any:
@@ -433,7 +434,7 @@ class Modes(Shaped):
         """Displacement and rotation at a place [m, rad], real and imaginary part: re, im"""
         shape, place = ModeShape(frame=frame), as_place(place, self._parts)
         index = index_of("modes", "index", index, len(self))
-        self._answered(place, _lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
+        self._place_status(place, _lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
         return shape
 
     def shapes(self, index: int, places: Sequence[Place], frame: int = FRAME_WORLD) -> Any:

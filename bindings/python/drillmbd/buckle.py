@@ -11,7 +11,7 @@ from . import enums
 from ._structs import TorqueDragRow
 from .analysis import Buckling, usual_operation
 from .results import CommandOutput, file_name
-from .errors import Error, Unanswered, Usage, status_text
+from .errors import Error, NoResult, Usage, status_text
 from .commands import along_pipes, stations_of, to_rest
 from .scene import Scene
 from .sim import Sim
@@ -41,7 +41,7 @@ def buckle(scene: Scene, out: CommandOutput, options: Any) -> int:
             out.note_text(f"critical factors: not assessed, because {reasons[-1]}")
             out.summary["buckling"] = {"factors": [], "not_assessed": reasons[-1]}
     if reasons and not any(soft):
-        raise Unanswered(f"buckling: not assessed, because {reasons[-1]}")
+        raise NoResult(f"buckling: not assessed, because {reasons[-1]}")
     return out.finish()
 
 

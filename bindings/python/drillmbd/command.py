@@ -178,8 +178,8 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="repeats a command for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle",
-                                            "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
+    sweep.add_argument("repeated_command", choices=["check", "static", "run", "modes", "response", "speeds", "buckle",
+                                                    "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key; keys between & change together: A & B=V1,V2 or A & B=V1 "
                        "& W1,V2 & W2")
@@ -262,80 +262,78 @@ def _catalogue(options: Any) -> int:
 
 def _add_fmu(commands: Any) -> None:
     text = "writes the scene as a unit for co-simulation by the standard FMI"
-    asked = commands.add_parser("fmu", help=text, description=text, epilog=FMU,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    asked.add_argument("scene", help="a scene file (TOML) with [[output]], and [[input]] to be steered by")
-    asked.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
-    asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi",
-                       help="of FMI (default %(default)s)")
-    asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER",
-                       help="the source code too; FOLDER: that of "
-                       "libdrillmbd's sources, where this package does not stand in it")
-    asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
+    command = commands.add_parser("fmu", help=text, description=text, epilog=FMU,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+    command.add_argument("scene", help="a scene file (TOML) with [[output]], and [[input]] to be steered by")
+    command.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
+    command.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi",
+                         help="of FMI (default %(default)s)")
+    command.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER",
+                         help="the source code too; FOLDER: that of "
+                         "libdrillmbd's sources, where this package does not stand in it")
+    command.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
 def _add_live(commands: Any) -> None:
     text = "writes one HTML page that runs the scene in a browser, or computes the run that such a page saved"
-    asked = commands.add_parser("live", help=text, description=text, epilog=LIVE,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    asked.add_argument("scene", help="a scene file (TOML)")
-    asked.add_argument("--output", "-o", metavar="FILE", help="the page; left out: the name of the scene with .html")
-    asked.add_argument("--language", choices=LANGUAGES, default="en",
-                       help="of the page: English (default) or Chinese; titles, comments and names of "
-                       "the scene file stay as they are")
-    asked.add_argument("--replay", metavar="LOG",
-                       help="a log that the page saved: computes its run and compares the hash of the state")
-    asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
+    command = commands.add_parser("live", help=text, description=text, epilog=LIVE,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+    command.add_argument("scene", help="a scene file (TOML)")
+    command.add_argument("--output", "-o", metavar="FILE", help="the page; left out: the name of the scene with .html")
+    command.add_argument("--language", choices=LANGUAGES, default="en",
+                         help="of the page: English (default) or Chinese; titles, comments and names of "
+                         "the scene file stay as they are")
+    command.add_argument("--replay", metavar="LOG",
+                         help="a log that the page saved: computes its run and compares the hash of the state")
+    command.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
 def _add_probability(commands: Any) -> None:
     text = "finds how often the failures of the scene come about where its [variability] varies"
-    asked = commands.add_parser("probability", help=text, description=text, epilog=PROBABILITY,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    asked.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
-    asked.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
-    asked.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
-    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"],
-                       help="analysis of each sample, instead of [variability] question: "
-                       "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
-    asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
-                       help="a map of the probability over KEY=V1,V2,... or "
-                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key; keys between & "
-                       "change together: A & B=V1,V2 "
-                       "or A & B=V1 & W1,V2 & W2")
-    asked.add_argument("--until", metavar="RULE",
-                       help='adds samples up to --samples until half of the interval is "30%%" of the probability, or '
-                            'it is '
-                       '"below 1e-2" or above')
-    asked.add_argument("--samples", type=int, metavar="N",
-                       help="instead of [variability] samples; of a subset simulation: in a level")
-    asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"],
-                       help="instead of [variability] method")
-    asked.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
-    asked.add_argument("--failure", metavar="NAME",
-                       help="which failure subset and indices are about; left out: any, by margin over limit")
-    asked.add_argument("--indices", type=int, metavar="N",
-                       help="Sobol' indices of N rows, N (2 + number of uncertain parameters) samples")
-    asked.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
-    asked.add_argument("--salvage", action="store_true",
-                       help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
-    asked.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
-                       help="where samples are computed; the numbers are the same (default %(default)s)")
-    asked.add_argument("--workers", type=int, metavar="N", help="left out: number of processors")
-    asked.add_argument("--address", metavar="HOST:PORT",
-                       help="of the scheduler of a Dask cluster; left out: one on this machine")
-    asked.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION",
-                       help="the function of a failure of the "
-                       "kind own: function(look) -> margin; once for each")
+    command = commands.add_parser("probability", help=text, description=text, epilog=PROBABILITY,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+    command.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
+    command.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
+    command.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
+    command.add_argument("--question", choices=["torque-drag", "static", "run", "auto"],
+                         help="analysis of each sample, instead of [variability] question: "
+                         "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
+    command.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
+                         help="a map of the probability over KEY=V1,V2,... or "
+                         "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key; keys between "
+                         "& change together: A & B=V1,V2 or A & B=V1 & W1,V2 & W2")
+    command.add_argument("--until", metavar="RULE",
+                         help='adds samples up to --samples until half of the interval is "30%%" of the probability, '
+                         'or it is "below 1e-2" or above')
+    command.add_argument("--samples", type=int, metavar="N",
+                         help="instead of [variability] samples; of a subset simulation: in a level")
+    command.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"],
+                         help="instead of [variability] method")
+    command.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
+    command.add_argument("--failure", metavar="NAME",
+                         help="which failure subset and indices are about; left out: any, by margin over limit")
+    command.add_argument("--indices", type=int, metavar="N",
+                         help="Sobol' indices of N rows, N (2 + number of uncertain parameters) samples")
+    command.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
+    command.add_argument("--salvage", action="store_true",
+                         help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
+    command.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
+                         help="where samples are computed; the numbers are the same (default %(default)s)")
+    command.add_argument("--workers", type=int, metavar="N", help="left out: number of processors")
+    command.add_argument("--address", metavar="HOST:PORT",
+                         help="of the scheduler of a Dask cluster; left out: one on this machine")
+    command.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION",
+                         help="the function of a failure of the "
+                         "kind own: function(look) -> margin; once for each")
 
 
-def _complete(asked: argparse.ArgumentParser) -> None:
+def _complete(command_line: argparse.ArgumentParser) -> None:
     """Completes the line for a shell, and ends."""
     try:
         argcomplete: Any = importlib.import_module("argcomplete")
     except ImportError:
         return
-    argcomplete.autocomplete(asked)
+    argcomplete.autocomplete(command_line)
 
 
 def _joined(words: list[str]) -> list[str]:
@@ -351,20 +349,20 @@ def _joined(words: list[str]) -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns the exit status."""
-    asked = parser()
-    _complete(asked)
+    command_line = parser()
+    _complete(command_line)
     words = _joined(list(sys.argv[1:] if arguments is None else arguments))
     cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
-    options = asked.parse_args(words[:cut])
+    options = command_line.parse_args(words[:cut])
     if "" in (getattr(options, "output", None), getattr(options, "scene", None)):
         return _fail(2,
                      "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave "
                      "--output out")
-    options.more = words[cut + 1:]  # options of the question that a sweep asks
+    options.more = words[cut + 1:]  # options of the command that a sweep repeats
     try:
         from ._progress import INTERRUPTS
         INTERRUPTS.install()
-        status = _guarded(lambda: _ask(options))
+        status = _guarded(lambda: _carry_out(options))
         sys.stdout.flush()
         return status
     except BrokenPipeError:  # nobody reads on, as behind "| head"; what is left goes nowhere, at the end of Python too
@@ -384,9 +382,9 @@ def program() -> None:
     sys.exit(status)
 
 
-def _guarded(ask: Callable[[], int]) -> int:
+def _guarded(action: Callable[[], int]) -> int:
     try:
-        return ask()
+        return action()
     except (Exception, KeyboardInterrupt) as error:
         found = exit_status.status_and_message(error)
         if found is None:
@@ -400,7 +398,7 @@ def _fail(status: int, text: str) -> int:
 
 
 def _sweep(options: Any) -> int:
-    if options.question == "probability":
+    if options.repeated_command == "probability":
         raise Usage("sweep does not repeat probability, which has a map of its own with the same random numbers "
                     "everywhere: "
                     f"drillmbd probability {options.scene} " + " ".join(f"--vary {text!r}" for text in options.vary))
@@ -414,11 +412,11 @@ def _sweep(options: Any) -> int:
     cases = math.prod(len(values) for _, values in vary)
     if cases > MOST_CASES:
         raise Usage(f"--vary asks for {cases} cases, must be <= {MOST_CASES}")
-    asked = parser().parse_args([options.question, options.scene, *options.more])
-    if options.question == "report" and options.output is None:
+    repeated = parser().parse_args([options.repeated_command, options.scene, *options.more])
+    if options.repeated_command == "report" and options.output is None:
         raise Usage("sweep of report needs --output FOLDER, which holds a page for each case")
-    return sweep(options.question, vary, lambda changes: scene.load(options.scene, changes), options.scene, asked,
-                 options.output, options.quiet, options.more)
+    return sweep(options.repeated_command, vary, lambda overrides: scene.load(options.scene, overrides), options.scene,
+                 repeated, options.output, options.quiet, options.more)
 
 
 def _fmu(options: Any) -> int:
@@ -484,11 +482,11 @@ def least(name: str, scene: Any) -> str:
     return LEAST[name].replace("{place}", f'{{part = "{string}", pipe = {pipes // 2}, fraction = 0.5}}')
 
 
-def _ask(options: Any) -> int:
+def _carry_out(options: Any) -> int:
     from . import scene
     from .results import CommandOutput, units_of
     from .language import Language
-    from .commands import QUESTIONS
+    from .commands import COMMANDS
     from .runner import carry_out
     from .scene.warned import warnings_of
     started = time.perf_counter()
@@ -523,7 +521,7 @@ def _ask(options: Any) -> int:
     if options.command == "live":
         return _live(options)
     if options.command == "probability":
-        from .probability.ask import probability
+        from .probability.command import probability
         options.started = started
         return probability(options)
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
@@ -539,7 +537,7 @@ def _ask(options: Any) -> int:
                         units_of(options, loaded),
                     Language(getattr(options, "language", "en")))
     out.started = started
-    return carry_out(loaded, out, options, QUESTIONS[options.command])
+    return carry_out(loaded, out, options, COMMANDS[options.command])
 
 
 if __name__ == "__main__":

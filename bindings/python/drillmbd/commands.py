@@ -1,4 +1,4 @@
-"""The questions that the command asks of a scene, one function each."""
+"""The commands of `drillmbd` that compute results of a scene, one function each."""
 from __future__ import annotations
 
 import time
@@ -16,7 +16,7 @@ from .no_response import NOTHING_EXCITES, of_response
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, TurnAStep, bent_elements, energy_error
-from .run_state import Kept, KeptFatigue, KeptRecorder, RunState, stop_asked
+from .run_state import Kept, KeptFatigue, KeptRecorder, RunState, stop_requested
 from .running import Bar
 from .sim import Sim
 from .unit_systems import Units
@@ -162,7 +162,7 @@ def run(scene: Scene, out: CommandOutput, options: Any) -> int:
         if turning is not None:
             turning.report(out)
         bent_elements(sim, out, "end of the run")
-        _run_answers(scene, sim, out, recorder)
+        _run_results(scene, sim, out, recorder)
         if last is not None and not stopped:
             last.verify(out)
         if not stopped:
@@ -222,7 +222,7 @@ class Course:
             self.elapsed = before + time.perf_counter() - started
             if bar is not None:
                 bar(progress)
-            return stop_asked(self.state, self.kept)
+            return stop_requested(self.state, self.kept)
 
         try:
             with INTERRUPTS.held():
@@ -269,7 +269,7 @@ class Course:
                         + (f", {(sim.time - at) / elapsed:.1f} times real time" if elapsed else ""))
 
 
-def _run_answers(scene: Scene, sim: Sim, out: CommandOutput, recorder: Any) -> None:
+def _run_results(scene: Scene, sim: Sim, out: CommandOutput, recorder: Any) -> None:
     note_bounces(sim, out)
     if recorder is not None and len(recorder):
         table, units = recorder.table, out.units
@@ -385,41 +385,41 @@ def _response_table(found: Any, names: list[str], out: CommandOutput) -> None:
 
 def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Critical rotary speeds."""
-    from .critical_speeds import speeds as answer
-    return answer(scene, out, options)
+    from .critical_speeds import speeds as command
+    return command(scene, out, options)
 
 
 def torque_drag(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Hook load and torque of the rig by depth and operation."""
-    from .torque_drag import torque_drag as answer
-    return answer(scene, out, options)
+    from .torque_drag import torque_drag as command
+    return command(scene, out, options)
 
 
 def buckle(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Critical factors, and thrusts that buckle a soft string."""
-    from .buckle import buckle as answer
-    return answer(scene, out, options)
+    from .buckle import buckle as command
+    return command(scene, out, options)
 
 
 def report(scene: Scene, out: CommandOutput, options: Any) -> int:
     """One page about it all."""
-    from .report import report as answer
-    return answer(scene, out, options)
+    from .report import report as command
+    return command(scene, out, options)
 
 
 def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Force and torque that arrive at a stuck far end."""
-    from .stuck import stuck as answer
-    return answer(scene, out, options)
+    from .stuck import stuck as command
+    return command(scene, out, options)
 
 
 def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Loads of the rig for each number of rods."""
-    from .rod_by_rod import rod_by_rod as answer
-    return answer(scene, out, options)
+    from .rod_by_rod import rod_by_rod as command
+    return command(scene, out, options)
 
 
-QUESTIONS: dict[str, Callable[[Scene, CommandOutput, Any], int]] = {
+COMMANDS: dict[str, Callable[[Scene, CommandOutput, Any], int]] = {
     "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response,
     "speeds": speeds,
     "torque-drag": torque_drag, "buckle": buckle, "stuck": stuck, "rod-by-rod": rod_by_rod}

@@ -53,12 +53,12 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
     used: Any = _structs.SpeedsOptions(**values)
     limits = [one["limit"] for one in settings["output"]]
 
-    def ask(sim: Sim, state: Linear) -> Any:
+    def compute(sim: Sim, state: Linear) -> Any:
         bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits,
                                      **state.options)
         return bands, severity, no_response.of_speeds(sim, state.scene, state.options)
 
-    state, (bands, severity, reasons) = rotating.linear(scene, "speeds", settle, ask, note)
+    state, (bands, severity, reasons) = rotating.linear(scene, "speeds", settle, compute, note)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
     silent = no_response.of_all(reasons)
     unmoved = [] if silent else [number for number, reason in enumerate(reasons) if reason is not None]

@@ -116,12 +116,12 @@ class WrongName(Error, AttributeError):
     """A field that the struct does not have."""
 
 
-class Unanswered(ArithmeticError):
+class NoResult(ArithmeticError):
     """An analysis that has no result for a scene, with the reason."""
 
 
 class Usage(ValueError):
-    """A command line or a scene that does not fit the question."""
+    """A command line or a scene that does not fit the command."""
 
 
 def last_message() -> bytes:

@@ -33,8 +33,8 @@ class Fatigue(Handle):
     def __init__(self, sim: Sim, places: Sequence[Any], options: FatigueOptions) -> None:
         self.sim, self._handle, self._options = sim, c_void_p(), options
         self._count = len(places)
-        asked = (Place * len(places))(*[as_place(place, sim._parts) for place in places])
-        sim._check(_lib.dmb_fatigue_create(sim._handle, byref(options), asked, len(places), byref(self._handle)))
+        requested = (Place * len(places))(*[as_place(place, sim._parts) for place in places])
+        sim._check(_lib.dmb_fatigue_create(sim._handle, byref(options), requested, len(places), byref(self._handle)))
 
     @mirrors("dmb_fatigue_take")
     def take(self) -> int:
@@ -44,10 +44,10 @@ class Fatigue(Handle):
     @mirrors("dmb_fatigue_get")
     def result(self, place: int = 0) -> FatigueResult:
         """Damage, cycles, largest range [Pa] and life [s] of a place, by its number."""
-        answer: FatigueResult = FatigueResult.blank()
+        result: FatigueResult = FatigueResult.blank()
         place = index_of("fatigue", "place", place, self._count)
-        self._sure(_lib.dmb_fatigue_get(self._handle, place, byref(answer)))
-        return answer
+        self._sure(_lib.dmb_fatigue_get(self._handle, place, byref(result)))
+        return result
 
     @mirrors("dmb_fatigue_snapshot")
     def snapshot(self) -> bytes:

@@ -201,7 +201,7 @@ def variables(scene: Scene) -> list[Variable]:
     with scene.new_sim() as sim:
         found += _inputs(scene, sim)
         for number, (name, place, quantity) in enumerate(scene.outputs):
-            sim.output(quantity, place)  # raises where it cannot be asked
+            sim.output(quantity, place)  # raises where it does not exist
             found.append(Variable(re.sub(r"\s*\[[^\]]*\]\s*$", "", name), OUTPUTS + number, "output", "continuous",
                                   _output_unit(quantity, place, drives), about=_output_about(quantity),
                                   of_state=quantity in OF_THE_STATE))

@@ -35,8 +35,8 @@ class Inputs(MutableMapping[str, float]):
     @mirrors("dmb_sim_get_input")
     def state(self, name: str) -> InputState:
         """The set point, the value in force, its rate, and the time at which the set point is reached."""
-        answer: InputState = self._sim._ask(_lib.dmb_sim_get_input, InputState.blank(), self._id(name))
-        return answer
+        result: InputState = self._sim._query(_lib.dmb_sim_get_input, InputState.blank(), self._id(name))
+        return result
 
     def __getitem__(self, name: str) -> float:
         return float(self.state(name).value)

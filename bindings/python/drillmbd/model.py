@@ -204,11 +204,11 @@ class Model(Handle, ModelCalls):
         self.place_at_end(string, 0.0, body)
         self.place_at_end(string, length, None, section)
         made: Sub = Sub.blank()
-        asked = SubDef(length=length)
-        asked.string = string or Id()
-        asked.body, asked.section = pointer(body), pointer(section)
-        asked.before, asked.after = (pointer(one) for one in joints)
-        self._check(_lib.dmb_model_add_sub(self._handle, byref(asked), byref(made)))
+        sub_definition = SubDef(length=length)
+        sub_definition.string = string or Id()
+        sub_definition.body, sub_definition.section = pointer(body), pointer(section)
+        sub_definition.before, sub_definition.after = (pointer(one) for one in joints)
+        self._check(_lib.dmb_model_add_sub(self._handle, byref(sub_definition), byref(made)))
         joints[0].place_a, joints[0].place_b = made.end, Place(made.body, 0, 0, 0.0)
         joints[1].place_a, joints[1].place_b = Place(made.body, 0, 0, 0.0), Place(made.section, 0, 0, 0.0)
         joints[1].origin_a[0] += length
@@ -315,7 +315,7 @@ class Model(Handle, ModelCalls):
         pipes = sum(arguments[0] for name, arguments in self.calls if name == "add_pipes")
         return f"<Model of {pipes} pipes, {'compiled' if self._compiled else 'described'}>"
 
-    # ---- Questions --------------------------------------------------------------------------------------------------
+    # ---- Queries ----------------------------------------------------------------------------------------------------
     @mirrors("dmb_model_get_info")
     def info(self) -> ModelInfo:
         """Counts, mass [kg], length [m] and memory of the compiled scene."""

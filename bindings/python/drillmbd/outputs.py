@@ -95,6 +95,6 @@ for _member in (*Quantity, *Reading):  # members without a sentence in the heade
     if _member.__doc__ == type(_member).__doc__ and _lib.dmb_output_name(int(_member), None):
         _member.__doc__ = f"[{output_unit(_member)}] the output {output_name(_member)}"
 
-#: All outputs but those of windows, as an enumeration: what a scene file may ask for.
+#: All outputs but those of windows, as an enumeration: those that a scene file may name.
 Named: Any = IntEnum("Named", {output_name(number).upper(): number for number in output_numbers()  # type: ignore[misc]
                                if number < OUTPUT_WINDOW_MINIMUM})

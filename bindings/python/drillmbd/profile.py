@@ -132,21 +132,21 @@ class _Stations:
 def values_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = None, count: int = 0) -> Any:
     """Quantities PROFILE_... at distances [m] from the rig end, or at `count` stations spread evenly; numpy array of
     shape (stations, quantities)."""
-    asked = _Stations(string, quantities, distance, count)
-    values = need("numpy").empty((asked.count, len(asked.wanted)))
-    asked.request.values = cast(values.ctypes.data, POINTER(c_double))
-    sim._told(lib.dmb_query_profile(sim._handle, byref(asked.request)), lib.dmb_query_profile, string)
+    requested = _Stations(string, quantities, distance, count)
+    values = need("numpy").empty((requested.count, len(requested.wanted)))
+    requested.request.values = cast(values.ctypes.data, POINTER(c_double))
+    sim._told(lib.dmb_query_profile(sim._handle, byref(requested.request)), lib.dmb_query_profile, string)
     return values
 
 
 def extremes_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = None,
                 count: int = 0) -> list[Extremes]:
     """Extremes of each quantity over these stations, in one call."""
-    asked = _Stations(string, quantities, distance, count)
-    found = (c_double * (4 * len(asked.wanted)))()
-    sim._told(lib.dmb_query_profile_extremes(sim._handle, byref(asked.request), found), lib.dmb_query_profile_extremes,
-              string)
-    return [Extremes(*found[4 * i:4 * i + 4]) for i in range(len(asked.wanted))]
+    requested = _Stations(string, quantities, distance, count)
+    found = (c_double * (4 * len(requested.wanted)))()
+    sim._told(lib.dmb_query_profile_extremes(sim._handle, byref(requested.request), found),
+              lib.dmb_query_profile_extremes, string)
+    return [Extremes(*found[4 * i:4 * i + 4]) for i in range(len(requested.wanted))]
 
 
 def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:

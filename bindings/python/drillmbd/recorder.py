@@ -51,9 +51,9 @@ class Recorder:
                  window: Window | None = None) -> None:
         self.sim, self._window = sim, window
         capacity, interval = whole(capacity, "recorder", "capacity", 1, 2 ** 40), _interval(interval)
-        asked = [_output(number, one, sim._parts) for number, one in enumerate(outputs)]
-        self._outputs = (Output * len(outputs))(*[one for one, *_ in asked])
-        self._names = [name[0] if name else output_text(one, sim._handle) for one, *name in asked]
+        requested = [_output(number, one, sim._parts) for number, one in enumerate(outputs)]
+        self._outputs = (Output * len(outputs))(*[one for one, *_ in requested])
+        self._names = [name[0] if name else output_text(one, sim._handle) for one, *name in requested]
         self._width = 1 + len(outputs)
         if window is None:
             sim._check(_lib.dmb_output_check(sim._handle, self._outputs, len(outputs)))
@@ -137,9 +137,9 @@ class ProfileRecorder:
         count = whole(stations, "profile recorder", "stations", 1) if isinstance(stations, int) else len(stations)
         self._shape = (count, len(self._quantities))
         self._width = 1 + count * len(self._quantities)
-        self._asked = (ctypes.c_int32 * len(self._quantities))(*self._quantities)
+        self._c_quantities = (ctypes.c_int32 * len(self._quantities))(*self._quantities)
         self._profile = ProfileStruct(station_count=count, quantity_count=len(self._quantities), string=as_id(string))
-        self._profile.quantities = ctypes.cast(self._asked, POINTER(ctypes.c_int32))
+        self._profile.quantities = ctypes.cast(self._c_quantities, POINTER(ctypes.c_int32))
         if not isinstance(stations, int):
             self._distance = (c_double * count)(*stations)
             self._profile.distance = ctypes.cast(self._distance, POINTER(c_double))

@@ -28,7 +28,7 @@ from .report_live import packed_page
 from .report_page import page
 from .report_probability import Probability, read_probability
 from .rig_torque import balanced
-from .run_state import MOST_BYTES, Kept, KeptFatigue, KeptRecorder, RunState, stop_asked
+from .run_state import MOST_BYTES, Kept, KeptFatigue, KeptRecorder, RunState, stop_requested
 from .scene import Scene, words
 from .sim import Sim
 from .unit_systems import Units
@@ -71,7 +71,7 @@ class Study:
                                 date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
                            file=out.summary["scene"])
 
-    def ask(self) -> None:
+    def compute(self) -> None:
         """All analyses in the order of the page."""
         everything = tuple(self.demands)
         self._attempt(phrase("soft string"), everything[:3], self._torque_drag)
@@ -414,7 +414,7 @@ class Study:
                 while not at_end() and not INTERRUPTS.pending:
                     done = len(course.times) - 1
                     at = sim.run_noting(min(end, begin + (done + 1) * every), step, recorder,
-                                        lambda _: stop_asked(state, dict), commands.LOOK,
+                                        lambda _: stop_requested(state, dict), commands.LOOK,
                                         [course, *counters.values()], begin + done * every)
                     notes.update(at.notes)
                     if not INTERRUPTS.pending or at_end():
@@ -485,7 +485,7 @@ def report(scene: Scene, out: CommandOutput, options: Any) -> int:
         raise Usage("report is about a string, the scene has none")
     need("plotly.offline")
     study = Study(scene, out, read_probability(options.probability, scene) if options.probability else None)
-    study.ask()
+    study.compute()
     if options.live:
         study.live, refused = packed_page(scene, options.scene, out.language)
         if refused:

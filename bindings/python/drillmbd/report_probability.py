@@ -29,7 +29,7 @@ class Outcome:
     unit: str = ""                 #: of limit and margins
     limit: float = math.nan
     margins: list[float] = field(default_factory=list)  #: of all samples that have one, rising
-    question: str = "run"          #: that each sample answers
+    question: str = "run"          #: of each sample
     demand: dict[str, Any] = field(default_factory=dict)  #: percentiles, as summary.json has them
 
     @property

@@ -132,15 +132,15 @@ def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:
     return Linear(scene, static, options, refused=refused)
 
 
-def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any],
+def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], compute: Callable[[Sim, Linear], Any],
            note: Callable[[str], Any]) -> tuple[Linear, Any]:
     """The result of a linear analysis about the sliding string where one turns, else at rest; and the state. A sliding
     state that is refused is replaced by the state at rest, and the reason is noted. settle: computes the static state;
-    ask: computes the result."""
+    compute: computes the result."""
     found = sliding(scene, analysis)
     if found is not None:
         try:
-            return found, _ask(found, settle, ask)
+            return found, _computed(found, settle, compute)
         except Error as error:
             note(phrase("{analysis}: the state of the string that slides at {rpm:.4g} rpm is refused ({reason}); the "
                         "state at rest without "
@@ -148,10 +148,10 @@ def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], as
                         else phrase("response"),
                         rpm=found.rotation / RPM, reason=Foreign(error.message)))
     rest = at_rest(scene, analysis, found is not None)
-    return rest, _ask(rest, settle, ask)
+    return rest, _computed(rest, settle, compute)
 
 
-def _ask(found: Linear, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any]) -> Any:
+def _computed(found: Linear, settle: Callable[[Sim, Linear], Any], compute: Callable[[Sim, Linear], Any]) -> Any:
     with found.scene.new_sim() as sim:
         settle(sim, found)
-        return ask(sim, found)
+        return compute(sim, found)

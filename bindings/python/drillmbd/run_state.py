@@ -21,7 +21,7 @@ from .scene import CannotSave, Scene, saves
 from .sim import Sim
 
 FILE = "run_state.npz"
-EVERY = 60.0          #: [s] by the clock between two states that are kept without being asked for
+EVERY = 60.0          #: [s] by the clock between two states that are kept without a request
 MOST_BYTES = 2 ** 28  #: of a state that is kept so often; larger ones only after Ctrl-C
 
 
@@ -193,7 +193,7 @@ def _unpacked(packed: dict[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
             for name, one in packed.items()}
 
 
-def stop_asked(run: RunState, scalars: Callable[[], dict[str, Any]]) -> bool:
+def stop_requested(run: RunState, scalars: Callable[[], dict[str, Any]]) -> bool:
     """For the progress of Sim.run: True after Ctrl-C; keeps the state once a minute."""
     run.sometimes(scalars)
     return INTERRUPTS.pending

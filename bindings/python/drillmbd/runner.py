@@ -15,7 +15,7 @@ from .language import phrase
 from .scene import Scene
 from .scene.warned import warnings_of
 
-Answer = Callable[[Scene, CommandOutput, Any], int]
+Command = Callable[[Scene, CommandOutput, Any], int]
 
 
 class Meter:
@@ -47,14 +47,14 @@ class Meter:
             self.width = 0
 
 
-def carry_out(scene: Scene, out: CommandOutput, options: Any, answer: Answer) -> int:
+def carry_out(scene: Scene, out: CommandOutput, options: Any, command: Command) -> int:
     """The exit status of a command. Errors are raised again after the summary is written."""
     meter = None if out.quiet or not sys.stderr.isatty() else Meter(out.summary["command"])
     out.meter = scene.progress = meter
     try:
         for text in warnings_of(scene):
             out.warn(out.units.sentence(text))
-        return answer(scene, out, options)
+        return command(scene, out, options)
     except KeyboardInterrupt:
         out.stopped(phrase("stopped by Ctrl-C before all results were computed"))
         return out.finish(STOPPED)

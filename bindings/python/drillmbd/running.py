@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 #: [s] by the clock that one call of several steps lasts at most, about: so long Ctrl-C and progress functions wait
 LONGEST = 0.05
-INACCURATE = (NOTE_WORK_LIMITED, NOTE_TOLERANCE)  #: notes of steps that are less accurate than asked for
+INACCURATE = (NOTE_WORK_LIMITED, NOTE_TOLERANCE)  #: notes of steps that are less accurate than requested
 ROUNDING = 1e-6  #: of a step, by which times of samples may be off
 
 

@@ -49,10 +49,10 @@ class Sensitivity(Handle):
     def outputs(self, outputs: Sequence[Any]) -> tuple[list[float], list[list[float]]]:
         """Values of outputs, pairs (place, "bit_speed"), and of each its derivatives by the parameters in their order
         [unit of the output over that of the parameter]."""
-        asked = outputs_of(outputs, self.sim._parts, "sensitivity")
+        requested = outputs_of(outputs, self.sim._parts, "sensitivity")
         count = len(self.names)
         values, derivatives = (c_double * len(outputs))(), (c_double * (len(outputs) * count))()
-        self.sim._check(_lib.dmb_sensitivity_outputs(self._handle, asked, len(outputs), values, derivatives))
+        self.sim._check(_lib.dmb_sensitivity_outputs(self._handle, requested, len(outputs), values, derivatives))
         return list(values), [list(derivatives[i * count:(i + 1) * count]) for i in range(len(outputs))]
 
     @mirrors("dmb_sensitivity_rows")

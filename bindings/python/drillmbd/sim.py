@@ -1,4 +1,4 @@
-"""A run: step, advance, ask, snapshot."""
+"""A run: step, advance, query, snapshot."""
 from __future__ import annotations
 
 import ctypes
@@ -270,67 +270,67 @@ class Sim(Handle, analysis.Analyses):
         self._check(_lib.dmb_sim_hash(self._handle, byref(found)))
         return found.value
 
-    # ---- Questions --------------------------------------------------------------------------------------------------
-    def _ask(self, function: Any, answer: Any, *arguments: Any) -> Any:
-        status = function(self._handle, *arguments, byref(answer))
+    # ---- Queries ----------------------------------------------------------------------------------------------------
+    def _query(self, function: Any, result: Any, *arguments: Any) -> Any:
+        status = function(self._handle, *arguments, byref(result))
         if status < 0:
             self._told(status, function, *arguments)
-        _set_status(answer, "status", status)
-        return answer
+        _set_status(result, "status", status)
+        return result
 
     def _told(self, status: int, function: Any, *arguments: Any) -> int:
-        """The status, or an Error for a part or place that does not fit: questions have no message of their own."""
+        """The status, or an Error for a part or place that does not fit: queries have no message of their own."""
         if is_closed(self._handle, status):
             raise closed("sim")
         if status < 0:
             raise Error(status, self._parts.why(status, _word(function), arguments))
         return status
 
-    def _ask_number(self, function: Any, *arguments: Any) -> float:
+    def _query_number(self, function: Any, *arguments: Any) -> float:
         value = c_double()
         self._told(function(self._handle, *arguments, byref(value)), function, *arguments)
         return value.value
 
     def pose(self, place: Place | Id | str) -> Pose:
         """Position [m], rotation matrix, displacement [m] and measured depth [m] of a place."""
-        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), as_place(place, self._parts))
-        return answer
+        result: Pose = self._query(_lib.dmb_query_pose, Pose.blank(), as_place(place, self._parts))
+        return result
 
     def motion(self, place: Place | Id | str, frame: int = FRAME_WORLD) -> Motion:
         """Velocity [m/s, rad/s] and acceleration [m/s2, rad/s2] of a place, each six numbers, in `frame`."""
-        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), as_place(place, self._parts))
-        return answer
+        result: Motion = self._query(_lib.dmb_query_motion, Motion(frame=frame), as_place(place, self._parts))
+        return result
 
     def pose_at(self, place: Place | Id | str, offset: Sequence[float]) -> Pose:
         """The pose of a point `offset` [m] away from a place, in its axes."""
-        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), as_place(place, self._parts), _offset(offset))
-        return answer
+        result: Pose = self._query(_lib.dmb_query_pose_at, Pose.blank(), as_place(place, self._parts), _offset(offset))
+        return result
 
     def motion_at(self, place: Place | Id | str, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
         """The motion of a point `offset` [m] away from a place, in its axes."""
-        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place, self._parts),
-                                   _offset(offset))
-        return answer
+        result: Motion = self._query(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place, self._parts),
+                                     _offset(offset))
+        return result
 
     def rotation(self, place: Place | Id | str) -> float:
         """[rad] about the pipe's own axis since time 0, revolutions counted"""
-        return self._ask_number(_lib.dmb_query_rotation, as_place(place, self._parts))
+        return self._query_number(_lib.dmb_query_rotation, as_place(place, self._parts))
 
     @mirrors("dmb_query_section")
     def section(self, place: Place | Id | str) -> Section:
         """Forces [N, N m] and strains of a section, six numbers each."""
-        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), as_place(place, self._parts))
-        return answer
+        result: Section = self._query(_lib.dmb_query_section, Section.blank(), as_place(place, self._parts))
+        return result
 
     def contact(self, number: int) -> Contact:
         """Gap [m], forces [N] and slip [m/s] at contact point number `number`, of info().contact_points."""
         number = index_of("contact", "number", number, self._parts.sites)
-        answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), number)
-        return answer
+        result: Contact = self._query(_lib.dmb_query_contact, Contact.blank(), number)
+        return result
 
     def contact_total(self) -> Any:
         """Sums over all contact points: closed ones, normal force [N], friction [N], deepest penetration [m]."""
-        return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
+        return self._query(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
 
 
     @mirrors("dmb_query_hole_now")
@@ -345,24 +345,24 @@ class Sim(Handle, analysis.Analyses):
 
     def kinetic_energy(self, part: Id | str, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""
-        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part, self._parts),
-                                whole(pipe, "kinetic energy", "pipe"))
+        return self._query_number(_lib.dmb_query_kinetic_energy, as_id(part, self._parts),
+                                  whole(pipe, "kinetic energy", "pipe"))
 
     @mirrors("dmb_query_energy")
     def energy(self) -> Energy:
         """The energy ledger [J]."""
-        answer: Energy = self._ask(_lib.dmb_query_energy, Energy.blank())
-        return answer
+        result: Energy = self._query(_lib.dmb_query_energy, Energy.blank())
+        return result
 
     def momentum(self) -> Momentum:
         """Linear [kg m/s] and angular [kg m2/s] momentum, mass [kg] and its centre [m]."""
-        answer: Momentum = self._ask(_lib.dmb_query_momentum, Momentum.blank())
-        return answer
+        result: Momentum = self._query(_lib.dmb_query_momentum, Momentum.blank())
+        return result
 
     def drive(self, drive: DriveId | str) -> DriveState:
         """Target, position, speed, force, power [W] and work [J] of a drive."""
-        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), as_id(drive, self._parts, "drive"))
-        return answer
+        result: DriveState = self._query(_lib.dmb_query_drive, DriveState.blank(), as_id(drive, self._parts, "drive"))
+        return result
 
     def reaction(self, part: Id | str) -> list[float]:
         """[N, N m] of support and motion drives on the rig end of a string or a body, body frame, six numbers"""
@@ -372,9 +372,9 @@ class Sim(Handle, analysis.Analyses):
 
     def joint(self, joint: JointId | str, frame: int = FRAME_WORLD) -> JointState:
         """Coordinates, rates, reaction [N, N m] and action of a joint, six numbers each."""
-        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame),
-                                       as_id(joint, self._parts, "joint"))
-        return answer
+        result: JointState = self._query(_lib.dmb_query_joint, JointState(frame=frame),
+                                         as_id(joint, self._parts, "joint"))
+        return result
 
     def multipliers(self, part: Id | str) -> list[float]:
         """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
@@ -385,29 +385,29 @@ class Sim(Handle, analysis.Analyses):
 
     def spring(self, spring: SpringId | str) -> SpringState:
         """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
-        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(),
-                                        as_id(spring, self._parts, "spring"))
-        return answer
+        result: SpringState = self._query(_lib.dmb_query_spring, SpringState.blank(),
+                                          as_id(spring, self._parts, "spring"))
+        return result
 
     def stuck(self, stuck: StuckId | str) -> StuckState:
         """Whether a place is stuck; offset, force that holds it, share of the release load."""
-        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck, self._parts, "stuck"))
-        return answer
+        result: StuckState = self._query(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck, self._parts, "stuck"))
+        return result
 
     def flow(self) -> FlowState:
         """Pressures [Pa] of the mud that flows, its drag and thrust [N], stretch by pressure [m]."""
-        answer: FlowState = self._ask(_lib.dmb_query_flow, FlowState.blank())
-        return answer
+        result: FlowState = self._query(_lib.dmb_query_flow, FlowState.blank())
+        return result
 
     def bit(self, bit: BitId | str) -> BitState:
         """Advance [m], depth of cut [m], weight [N] and torque [N m] of a bit."""
-        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), as_id(bit, self._parts, "bit"))
-        return answer
+        result: BitState = self._query(_lib.dmb_query_bit, BitState.blank(), as_id(bit, self._parts, "bit"))
+        return result
 
     def statistics(self) -> Statistics:
         """Steps, iterations and memory so far."""
-        answer: Statistics = self._ask(_lib.dmb_query_statistics, Statistics.blank())
-        return answer
+        result: Statistics = self._query(_lib.dmb_query_statistics, Statistics.blank())
+        return result
 
     # ---- Tables and files -------------------------------------------------------------------------------------------
     def recorder(self, outputs: Sequence[Any], capacity: int, interval: float = 0.0,
@@ -421,10 +421,10 @@ class Sim(Handle, analysis.Analyses):
         and quantity may stand in the order of a recorder's pair too: output(place, "bit_speed")."""
         if isinstance(quantity, (Place, Id)):
             quantity, place = place, quantity
-        asked, value = (quantity if isinstance(quantity, Output) else output_of((place, quantity), self._parts),
-                        c_double())
-        self._check(_lib.dmb_output_check(self._handle, byref(asked), 1))
-        self._told(_lib.dmb_query_output(self._handle, byref(asked), byref(value)), _lib.dmb_query_output)
+        requested, value = (quantity if isinstance(quantity, Output) else output_of((place, quantity), self._parts),
+                            c_double())
+        self._check(_lib.dmb_output_check(self._handle, byref(requested), 1))
+        self._told(_lib.dmb_query_output(self._handle, byref(requested), byref(value)), _lib.dmb_query_output)
         return value.value
 
     @mirrors("dmb_window_create")
@@ -453,17 +453,17 @@ class Sim(Handle, analysis.Analyses):
         """A string (None: the first) from end to end as arrays: poses, forces and contact at `per_pipe` stations of
         each of its pipes and at its rig end. pipes: their number; left out: as described."""
         from .profile import profile
-        asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
-        return profile(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, per_pipe)
+        requested = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
+        return profile(self, requested, self._parts.pipes.get(requested.index, 0) if pipes is None else pipes, per_pipe)
 
     @mirrors("dmb_query_profile_extremes")
     def profile_extremes(self, quantities: Sequence[int], string: StringId | str | None = None,
                          pipes: int | None = None, per_pipe: int = 2) -> dict[int, Extremes]:
         """Least and largest value of each quantity PROFILE_... over the stations of `profile`, and their distances."""
         from .profile import extremes_of
-        asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
-        count = self._parts.pipes.get(asked.index, 0) if pipes is None else pipes
-        return dict(zip(quantities, extremes_of(self, asked, quantities, count=count * per_pipe + 1)))
+        requested = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
+        count = self._parts.pipes.get(requested.index, 0) if pipes is None else pipes
+        return dict(zip(quantities, extremes_of(self, requested, quantities, count=count * per_pipe + 1)))
 
     @mirrors("dmb_analysis_state_space")
     def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[Any] = (),
@@ -489,8 +489,9 @@ class Sim(Handle, analysis.Analyses):
     def string_fatigue(self, string: StringId | str, pipes: int | None = None, **fields: Any) -> StringFatigue:
         """A StringFatigue of the pipes of a string; fields as of fatigue."""
         from .fatigue import StringFatigue
-        asked = as_id(string, self._parts, "string")
-        return StringFatigue(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, **fields)
+        requested = as_id(string, self._parts, "string")
+        count = self._parts.pipes.get(requested.index, 0) if pipes is None else pipes
+        return StringFatigue(self, requested, count, **fields)
 
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:

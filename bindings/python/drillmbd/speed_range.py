@@ -45,7 +45,7 @@ def breakpoints(scene: Scene) -> list[dict[str, Any]]:
         choices = [dict(zip(ends, values)) for values in itertools.product(*ends.values())]
     else:
         choices = [{name: value} for name, pair in ends.items() for value in pair]
-    return [draw.changes({name: 0.0 * value + choice.get(name, value) if name in ends else value
+    return [draw.overrides({name: 0.0 * value + choice.get(name, value) if name in ends else value
                           for name, value in middle.items()})
             for choice in choices]
 

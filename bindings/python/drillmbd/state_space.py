@@ -34,8 +34,8 @@ class StateSpace(Handle):
             options.form, options.modes = STATE_REDUCED, modes._handle
             if mode_list is not None:
                 options.mode_list, options.mode_count = (c_int32 * len(mode_list))(*mode_list), len(mode_list)
-        given, asked = (Excitation * len(inputs))(*inputs), outputs_of(outputs, sim._parts, "state space")
-        sim._check(sim._long(_lib.dmb_analysis_state_space, byref(options), given, len(inputs), asked, len(outputs),
+        given, requested = (Excitation * len(inputs))(*inputs), outputs_of(outputs, sim._parts, "state space")
+        sim._check(sim._long(_lib.dmb_analysis_state_space, byref(options), given, len(inputs), requested, len(outputs),
                              byref(self._handle)))
         self.info: StateSpaceInfo = StateSpaceInfo.blank()
         self._sure(_lib.dmb_state_space_get_info(self._handle, byref(self.info)))
@@ -174,10 +174,10 @@ class Arrays:
     @mirrors("dmb_query_row")
     def row(self, row: int) -> Row:
         """The part or node that a row belongs to."""
-        answer: Row = Row.blank()
-        self._sim._told(_lib.dmb_query_row(self._sim._handle, whole(row, "row", "row"), byref(answer)),
+        result: Row = Row.blank()
+        self._sim._told(_lib.dmb_query_row(self._sim._handle, whole(row, "row", "row"), byref(result)),
                         _lib.dmb_query_row)
-        return answer
+        return result
 
     @mirrors("dmb_analysis_place_rows")
     def place(self, place: Any, component: int, frame: int = FRAME_WORLD) -> dict[int, float]:

@@ -87,12 +87,12 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
     result: dict[str, Any] = {}
     units = out.units
     with scene.new_sim() as sim:
-        for name, ask in (("pull", pull_at_bit), ("push", push_at_bit)):
+        for name, compute in (("pull", pull_at_bit), ("push", push_at_bit)):
             limit = limits[name]
             if limit is None:
                 out.say(f"{name}: no limit in the scene; give --{name}")
                 continue
-            force, row = ask(sim, string, limit, **more)
+            force, row = compute(sim, string, limit, **more)
             if not force > 0.0:
                 result[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
                 out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction "

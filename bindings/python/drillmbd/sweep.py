@@ -19,7 +19,7 @@ from .results import CommandOutput, no_formula, units_of
 from .errors import Error, Usage
 from .exit_status import FAILED, STOPPED, line_of
 from .probability.study import code
-from .commands import QUESTIONS
+from .commands import COMMANDS
 from .runner import carry_out
 from .scene import CannotSave, Scene, SceneError, saves
 from .scene.override_keys import refuse_wrong
@@ -105,7 +105,7 @@ def settings_of(varied_values: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-# ---- Answers ---------------------------------------------------------------------------------------------------------
+# ---- Results ---------------------------------------------------------------------------------------------------------
 def numbers_of(summary: Any, name: str = "") -> dict[str, float]:
     """Every number of a summary by its dotted name; of long lists the first items."""
     if isinstance(summary, bool) or isinstance(summary, (int, float)):
@@ -124,10 +124,10 @@ def numbers_of(summary: Any, name: str = "") -> dict[str, float]:
 class Sweep:
     """The cases of a sweep and their results."""
 
-    def __init__(self, question: str, keys: list[str], folder: pathlib.Path | None, quiet: bool, count: int,
+    def __init__(self, command: str, keys: list[str], folder: pathlib.Path | None, quiet: bool, count: int,
                  more: list[str]) -> None:
-        self.question, self.keys, self.folder, self.quiet, self.count, self.more = (question, keys, folder, quiet,
-                                                                                    count, more)
+        self.command, self.keys, self.folder, self.quiet, self.count, self.more = (command, keys, folder, quiet,
+                                                                                   count, more)
         self.rows: list[dict[str, Any]] = []
         self.failed = self.kept = 0
         self.warnings: list[str] = []
@@ -140,15 +140,15 @@ class Sweep:
 
     def case(self, values: tuple[Any, ...], load: Callable[[dict[str, Any]], Scene], file: str, options: Any) -> None:
         """One more case; a failure is counted and stated in its row."""
-        changes = dict(zip(self.keys, values))
+        overrides = dict(zip(self.keys, values))
         number = len(self.rows) + 1
-        row: dict[str, Any] = {"case": number, **changes, "status": "ok", "message": ""}
+        row: dict[str, Any] = {"case": number, **overrides, "status": "ok", "message": ""}
         about = ""
         try:
-            scene = load(settings_of(changes))
+            scene = load(settings_of(overrides))
             summary = self._kept(number, scene)
             if summary is None:
-                summary = self._answer(number, scene, file, options)
+                summary = self._computed(number, scene, file, options)
             else:
                 about, self.kept = ", as computed before", self.kept + 1
                 self._warn(summary["warnings"])
@@ -160,17 +160,17 @@ class Sweep:
             self.rows.append(row)
             row.update(status="failed", message=line_of(error))
         settings = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}"
-                             for key, value in changes.items())
+                             for key, value in overrides.items())
         self.say(f"case {number} of {self.count}: {settings}: {row['status']}{about}"
                  + (f": {row['message']}" if row["message"] else ""))
 
-    def _answer(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
+    def _computed(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
         """The summary of a case that is computed now. Raises KeyboardInterrupt where Ctrl-C ended it."""
-        out = CommandOutput(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question,
+        out = CommandOutput(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.command,
                             True, units_of(options, scene))
         out.summary["identity"] = self._identity(scene)
         try:
-            carry_out(scene, out, options, QUESTIONS[self.question])
+            carry_out(scene, out, options, COMMANDS[self.command])
         finally:
             self._warn(out.summary["warnings"])
         if out.interrupted:
@@ -183,7 +183,7 @@ class Sweep:
             text = saves(scene, False)
         except CannotSave:
             return ""
-        return hashlib.sha256(json.dumps([self.question, self.more, text, sorted(code().items())]).encode()).hexdigest()
+        return hashlib.sha256(json.dumps([self.command, self.more, text, sorted(code().items())]).encode()).hexdigest()
 
     def _kept(self, number: int, scene: Scene) -> dict[str, Any] | None:
         """The summary of a case that an earlier sweep of the same folder completed."""
@@ -219,7 +219,7 @@ class Sweep:
             if self.rows:
                 self.write(self.folder / "sweep.csv")
                 files.append("sweep.csv")
-            found = {"command": "sweep", "question": self.question, "scene": os.path.basename(file),
+            found = {"command": "sweep", "question": self.command, "scene": os.path.basename(file),
                      "drillmbd": __version__, "keys": self.keys,
                      "cases": self.count, "computed": len(self.rows) - self.kept, "kept": self.kept,
                      "failed": self.failed, "warnings": self.warnings,
@@ -232,7 +232,7 @@ class Sweep:
         return status
 
 
-def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict[str, Any]], Scene], file: str,
+def sweep(command: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict[str, Any]], Scene], file: str,
           options: Any, folder: str | None, quiet: bool, more: list[str]) -> int:
     """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished
     cases. more: the options of the command as they are written."""
@@ -240,7 +240,7 @@ def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict
     if target is not None:
         target.mkdir(parents=True, exist_ok=True)
     count = math.prod(len(listed) for _, listed in vary)
-    found = Sweep(question, [key for key, _ in vary], target, quiet, count, more)
+    found = Sweep(command, [key for key, _ in vary], target, quiet, count, more)
     status = STOPPED
     try:
         for values in itertools.product(*(listed for _, listed in vary)):

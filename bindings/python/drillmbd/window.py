@@ -25,11 +25,11 @@ class Window(Handle):
                  levels: Sequence[float] | None) -> None:
         self.sim, self._handle = sim, c_void_p()
         self._count = len(outputs)
-        asked = outputs_of(outputs, sim._parts, "window")
+        requested = outputs_of(outputs, sim._parts, "window")
         if levels is not None:
             self._levels = (c_double * self._count)(*reals(levels, "window", "levels", self._count))
             options.levels = self._levels
-        sim._check(_lib.dmb_window_create(sim._handle, byref(options), asked, len(outputs), byref(self._handle)))
+        sim._check(_lib.dmb_window_create(sim._handle, byref(options), requested, len(outputs), byref(self._handle)))
 
     @mirrors("dmb_window_take")
     def take(self) -> int:
@@ -39,10 +39,10 @@ class Window(Handle):
     @mirrors("dmb_window_get")
     def result(self, output: int = 0) -> WindowResult:
         """Least, greatest, mean, index of a watched output, by its number."""
-        answer: WindowResult = WindowResult.blank()
+        result: WindowResult = WindowResult.blank()
         output = index_of("window", "output", output, self._count)
-        self._sure(_lib.dmb_window_get(self._handle, output, byref(answer)))
-        return answer
+        self._sure(_lib.dmb_window_get(self._handle, output, byref(result)))
+        return result
 
     def _asdict(self) -> dict[str, list[Any]]:
         """The fields of the results by name, output by output."""

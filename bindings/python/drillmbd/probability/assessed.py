@@ -71,7 +71,8 @@ def _drawn(sample: Any) -> list[Scene]:
     for number in range(TRIES):
         values = sample.draw.values(stream(21, number).standard_normal(sample.dimension))
         try:
-            return [loads(sample.text, sample.name, sample.folder, {**sample.changes, **sample.draw.changes(values)})]
+            return [loads(sample.text, sample.name, sample.folder,
+                          {**sample.overrides, **sample.draw.overrides(values)})]
         except (Error, SceneError, CannotSave, ArithmeticError, ValueError):
             continue
     return []

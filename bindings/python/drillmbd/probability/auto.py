@@ -21,7 +21,7 @@ from .._optional import need
 from ..results import CommandOutput
 from ..errors import Usage
 from ..scene.failure import KINDS
-from .answer import ANY, Answer, Asked
+from .results import ANY, StudyResults, StudySettings
 from .draw import CannotDraw
 from .estimates import Estimate, clopper_pearson
 from .sampling import Points, stream
@@ -88,34 +88,34 @@ def _upper_share(count: int, samples: int, parts: float) -> float:
     return clopper_pearson(count, samples, parts)[1] if count else 0.0
 
 
-class Auto(Answer):
+class Auto(StudyResults):
     """Both stages."""
 
-    def __init__(self, asked: Asked, output: CommandOutput) -> None:
-        super().__init__(asked, output)
+    def __init__(self, settings: StudySettings, output: CommandOutput) -> None:
+        super().__init__(settings, output)
         self.question = "auto"
-        if asked.sampling != "monte-carlo" or asked.rule is not None or asked.options.surrogate:
+        if settings.sampling != "monte-carlo" or settings.rule is not None or settings.options.surrogate:
             raise Usage("--question auto is a Monte Carlo study: leave --indices, --until, --surrogate and other "
                         "methods out")
-        whole = asked.sample
-        self.quick = SceneSample(whole.text, whole.name, whole.folder, whole.own, whole.changes, "torque-drag", True)
+        whole = settings.sample
+        self.quick = SceneSample(whole.text, whole.name, whole.folder, whole.own, whole.overrides, "torque-drag", True)
 
-    def answer(self) -> int:
-        asked, whole = self.asked, self.sample
+    def compute(self) -> int:
+        settings, whole = self.settings, self.sample
         if not self.quick.names:
             raise CannotDraw("no failure of the scene has a demand of torque and drag: ask --question run")
         for text in self.quick.soft.notes():
             self.output.note_text(text)
-        dynamic = [one.name for one in asked.failures if "torque-drag" not in KINDS[one.kind].questions]
+        dynamic = [one.name for one in settings.failures if "torque-drag" not in KINDS[one.kind].questions]
         self.output.say("question auto: torque and drag of all samples; runs in time where they leave less than "
                         f"{100 * NEAR:g} % of a limit, and of "
-                        f"{100 * part_of(asked.samples):.3g} % of the others"
+                        f"{100 * part_of(settings.samples):.3g} % of the others"
                         + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
-        points = Points("monte-carlo", asked.seed, whole.dimension, asked.samples)
+        points = Points("monte-carlo", settings.seed, whole.dimension, settings.samples)
         soft = self.study(self.quick, "study_torque_drag.h5")
         study = None
         try:
-            quick = soft.run(range(asked.samples), points.z)
+            quick = soft.run(range(settings.samples), points.z)
             study = self.study(whole, "study.h5")
             self._runs(study, points, quick)
         except KeyboardInterrupt:
@@ -131,25 +131,25 @@ class Auto(Answer):
         return self.finish(study or soft)
 
     def _runs(self, study: Any, points: Points, quick: list[Any]) -> None:
-        numpy, asked = need("numpy"), self.asked
-        scale = {one.name: abs(one.limit) or 1.0 for one in asked.failures}
+        numpy, settings = need("numpy"), self.settings
+        scale = {one.name: abs(one.limit) or 1.0 for one in settings.failures}
         margins = numpy.array([one.margins for one in quick]) / numpy.array([scale[name] for name in self.quick.names])
         least = margins.min(axis=1)  # NaN of a sample without torque and drag: run
         near = ~(abs(margins).min(axis=1) > NEAR)
-        run = [number for number in range(asked.samples) if near[number]
-               or chosen(asked.seed, number, part_of(asked.samples))]
+        run = [number for number in range(settings.samples) if near[number]
+               or chosen(settings.seed, number, part_of(settings.samples))]
         results = study.run(run, points.z)
-        found = numpy.full((asked.samples, len(self.sample.names)), math.nan)
+        found = numpy.full((settings.samples, len(self.sample.names)), math.nan)
         for one in results:
             found[one.number] = one.margins
         for i, name in enumerate(self.sample.names):
             soft = (margins[:, self.quick.names.index(name)] if name in self.quick.names
-                    else numpy.full(asked.samples, math.inf))
+                    else numpy.full(settings.samples, math.inf))
             self._report_stages(name, soft, near, found[:, i], len(run))
-        self._report_stages(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
+        self._report_stages(ANY, least, near, (found / numpy.array(settings.scales())).min(axis=1), len(run))
         self._compare(margins, found, scale)
         if results:
-            part = part_of(asked.samples)
+            part = part_of(settings.samples)
             self.say_demands(results, numpy.array([1.0 if near[one.number] or part >= 1.0 else 1.0 / part
                                                    for one in results]))
         self.table(results)
@@ -158,8 +158,8 @@ class Auto(Answer):
         numpy = need("numpy")
         ran = ~numpy.isnan(found)
         stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()),
-                      part_of(self.asked.samples))
-        self.report(name, stage.estimate(self.asked.confidence))
+                      part_of(self.settings.samples))
+        self.report(name, stage.estimate(self.settings.confidence))
 
     def _compare(self, margins: Any, found: Any, scale: dict[str, float]) -> None:
         """Differences between torque and drag and the runs, over the limit."""

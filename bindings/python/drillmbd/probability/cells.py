@@ -19,7 +19,7 @@ from ..scene import CannotSave, SceneError
 from ..scene.failure import KINDS
 from ..scene.override_keys import refuse_wrong
 from ..scene.overrides import by_number
-from .answer import ANY, Answer, Asked
+from .results import ANY, StudyResults, StudySettings
 from .auto import Auto
 from .demands import Demand, amount
 from .draw import CannotDraw
@@ -37,7 +37,7 @@ SIGNIFICANT = 0.05  #: chance below which a difference counts as shown
 class Cell:
     """One combination."""
     values: dict[str, Any]
-    message: str = ""                                       #: why it has no answer
+    message: str = ""                                       #: why it has no result
     estimates: dict[str, Estimate] = field(default_factory=dict)
     demands: dict[str, Demand] = field(default_factory=dict)
     #: samples with margins, by number: any failure, or that of --failure
@@ -100,7 +100,7 @@ class Map:
                                 "lost; vary a parameter of the "
                                 f"distribution, as variability.{table}[{i}].mean, or make it relative = true")
 
-    def answer(self) -> int:
+    def compute(self) -> int:
         """All cells, then the map; returns the exit status: 1 where a cell has no result."""
         # a second master is refused here, not by each cell
         status, lock = 0, Lock(self.output.folder / "map", "--output folder") if self.output.folder else None
@@ -125,14 +125,14 @@ class Map:
         from ..sweep import settings_of
         cell, file = Cell(values), self.options.scene
         whole, folder = self.sample, self.output.folder
-        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **settings_of(values)},
-                             whole.asked)
+        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own,
+                             {**whole.overrides, **settings_of(values)}, whole.given_question)
         try:
-            asked = Asked(sample, self.options)
+            study_settings = StudySettings(sample, self.options)
             output = CommandOutput(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene,
                                    "probability", True)
-            made = Auto(asked, output) if self.question == "auto" else Answer(asked, output)
-            status = carry_out(sample.draw.scene, output, self.options, lambda *_: made.answer())
+            made = Auto(study_settings, output) if self.question == "auto" else StudyResults(study_settings, output)
+            status = carry_out(sample.draw.scene, output, self.options, lambda *_: made.compute())
             if status == STOPPED:
                 raise KeyboardInterrupt
             cell.estimates, cell.demands, cell.dimension = made.estimates, made.demands, sample.dimension
@@ -306,7 +306,7 @@ def paired(a: Cell, b: Cell) -> Pair | None:
     return Pair(len(both), more, fewer, chance)
 
 
-def answer(sample: SceneSample, options: argparse.Namespace) -> int:
+def probability_map(sample: SceneSample, options: argparse.Namespace) -> int:
     """The map that --vary asks for; returns the exit status."""
     if options.engine == "mpi":
         raise Usage("--vary has one study after the other, and --engine mpi one: choose another --engine")
@@ -317,5 +317,5 @@ def answer(sample: SceneSample, options: argparse.Namespace) -> int:
     output.started = options.started
     output.summary.update(question=question, vary=options.vary)
     made = Map(sample, options, question, output)
-    return carry_out(sample.draw.scene, output, options, lambda *_: made.answer())
+    return carry_out(sample.draw.scene, output, options, lambda *_: made.compute())
 

@@ -159,19 +159,19 @@ class Draw:
         found.update({name: self.translations[name](how.many(part)) for (name, how), part in zip(made, parts[1:])})
         return [{name: values[i] for name, values in found.items()} for i in range(len(rows))]
 
-    def changes(self, values: dict[str, Any]) -> dict[str, Any]:
+    def overrides(self, values: dict[str, Any]) -> dict[str, Any]:
         """Changes for scene.load that make the scene of one sample."""
         found: dict[str, Any] = {}
         for one in self.varies.scatters:
             for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):
                 found[key] = text(values[one.name] * base, unit)
-        self._field_changes(values, found)
+        self._field_overrides(values, found)
         for process, _, times in self.processes:
             found.update(self._time_function(process, times, values[process.name]))
         found["variability"] = None  # nothing varies in the sample itself
         return found
 
-    def _field_changes(self, values: dict[str, Any], found: dict[str, Any]) -> None:
+    def _field_overrides(self, values: dict[str, Any], found: dict[str, Any]) -> None:
         survey = [one for one, _ in self.fields if one.key.startswith("hole.survey")]
         if survey:
             rows = [list(row) for row in self._stations()]

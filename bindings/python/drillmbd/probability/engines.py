@@ -46,7 +46,7 @@ def threads(workers: int) -> Callable[..., Iterator[Result]]:
     from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
     def run(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
-        sample.names  # made once, before the threads ask for it
+        sample.names  # made once, before the threads use it
         pool, waiting = ThreadPoolExecutor(workers), set[Any]()
         try:
             source = iter(tasks)

@@ -24,7 +24,7 @@ class Estimate:
     high: float
     confidence: float
     method: str
-    samples: int              #: asked for
+    samples: int              #: requested
     failures: int             #: margins <= 0
     #: samples without a margin; the interval holds whether they fail or not, where the method allows it
     lost: int

@@ -223,10 +223,10 @@ class Watch:
 
     def __init__(self, scene: Scene, sim: Sim, failures: list[Failure], looks: int) -> None:
         self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind not in BESIDE]
-        asked = {(one.names[part], quantity, what) for one in self.failures
-                 for part, quantity, what in HOW[one.kind].signals.values()}
-        self.outputs = sorted(one for one in asked if one[2] == "")
-        self.profiles = sorted(one for one in asked if one[2] in ("max", "min"))
+        signals = {(one.names[part], quantity, what) for one in self.failures
+                   for part, quantity, what in HOW[one.kind].signals.values()}
+        self.outputs = sorted(one for one in signals if one[2] == "")
+        self.profiles = sorted(one for one in signals if one[2] in ("max", "min"))
         self.counters = {one.name: self._fatigue(one) for one in self.failures if one.kind == "fatigue"}
         places = [(as_place(scene.names[name]), quantity) for name, quantity, _ in self.outputs]
         self.recorder = sim.recorder(places, looks + 2) if places else None

@@ -90,8 +90,8 @@ class SceneSample:
     name: str = "scene"
     folder: str = "."
     own: Mapping[str, Any] = field(default_factory=dict)  #: functions or Own by the failure's name
-    changes: Mapping[str, Any] = field(default_factory=dict)  #: of the scene, in all samples
-    asked: str = ""       #: the question, instead of that of [variability]
+    overrides: Mapping[str, Any] = field(default_factory=dict)  #: of the scene, in all samples
+    given_question: str = ""  #: the question, instead of that of [variability]
     known: bool = False   #: only of failures that the question finds a demand of
 
     def __post_init__(self) -> None:
@@ -106,7 +106,7 @@ class SceneSample:
     @property
     def question(self) -> str:
         """torque-drag, static or run."""
-        return self.asked or self.draw.varies.question
+        return self.given_question or self.draw.varies.question
 
     @property
     def quick(self) -> bool:
@@ -124,7 +124,7 @@ class SceneSample:
         """Made once in each thread, whose samples change it; forked processes have that of their parent."""
         thread = threading.get_ident()
         if thread not in self._soft:
-            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw,
+            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.overrides, self.draw,
                                             [one for one in self.failures if one.kind not in BESIDE])
         return self._soft[thread]
 
@@ -132,7 +132,7 @@ class SceneSample:
     def draw(self) -> Draw:
         """Made once in each process."""
         if self._draw is None:
-            scene = loads(self.text, self.name, self.folder, self.changes)
+            scene = loads(self.text, self.name, self.folder, self.overrides)
             self._draw = Draw(scene)
             if not scene.failures:
                 raise CannotDraw(f"{self.name} has no [[failure]]: nothing can fail")
@@ -147,23 +147,23 @@ class SceneSample:
     def limits(self) -> DrawnLimits:
         """Limits that vary. Made once in each process."""
         if self._limits is None:
-            self._limits = DrawnLimits(self.draw, lambda changes: loads(self.text, self.name, self.folder,
-                                                                        {**self.changes, **changes,
-                                                                         "variability": None}))
+            self._limits = DrawnLimits(self.draw, lambda overrides: loads(self.text, self.name, self.folder,
+                                                                          {**self.overrides, **overrides,
+                                                                           "variability": None}))
         return self._limits
 
     def _refuse_others(self, failures: list[Failure]) -> None:
         """Failures that the question of the command line says nothing about."""
         for one in failures:
-            if self.known or not self.asked:
+            if self.known or not self.given_question:
                 continue
-            if self.asked not in KINDS[one.kind].questions:
-                raise CannotDraw(f"failure {one.name} ({one.kind}): the question {self.asked} says nothing about it; "
-                                 "ask --question "
+            if self.given_question not in KINDS[one.kind].questions:
+                raise CannotDraw(f"failure {one.name} ({one.kind}): the question {self.given_question} says nothing "
+                                 "about it; ask --question "
                                  f"{' or '.join(KINDS[one.kind].questions)}, or auto, or take it out")
-            if self.asked != "run" and one.values.get("from", 0.0) > 0.0:
+            if self.given_question != "run" and one.values.get("from", 0.0) > 0.0:
                 raise CannotDraw(f"failure {one.name}: from = {one.values['from']:g} s is for runs in time, and the "
-                                 f"question is {self.asked}")
+                                 f"question is {self.given_question}")
 
     @property
     def dimension(self) -> int:
@@ -215,7 +215,7 @@ class SceneSample:
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
         if self.question == "torque-drag" and not any(one.kind in BESIDE for one in self.failures):
             return self.soft.margins(values, self.limits.of(self.failures, values))
-        scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
+        scene = loads(self.text, self.name, self.folder, {**self.overrides, **self.draw.overrides(values)})
         if self.question == "torque-drag":
             failures = self.limits.of(self.failures, values)
             quick = [one for one in failures if one.kind not in BESIDE]

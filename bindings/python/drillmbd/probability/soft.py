@@ -254,8 +254,8 @@ class Rows:
 class SoftString:
     """Margins and demands of samples by torque and drag."""
 
-    def __init__(self, text: str, name: str, folder: str, changes: Any, draw: Draw, failures: list[Failure]) -> None:
-        self.text, self.name, self.folder, self.given, self.draw = text, name, folder, dict(changes), draw
+    def __init__(self, text: str, name: str, folder: str, overrides: Any, draw: Draw, failures: list[Failure]) -> None:
+        self.text, self.name, self.folder, self.given, self.draw = text, name, folder, dict(overrides), draw
         self.failures = failures
         wall = any(one.kind == "wall-pressure" for one in self.failures)
         self.rows, self.why = Rows(wall), ""
@@ -271,7 +271,7 @@ class SoftString:
             self.places, self.why = None, str(error)
 
     def _scene(self, values: dict[str, Any]) -> Scene:
-        return loads(self.text, self.name, self.folder, {**self.given, **self.draw.changes(values)})
+        return loads(self.text, self.name, self.folder, {**self.given, **self.draw.overrides(values)})
 
     @staticmethod
     def _calls(scene: Scene) -> Any:
@@ -296,7 +296,7 @@ class SoftString:
             mine, wanted = ([soft_margin(one, found)[1] for one in self.failures]
                             for found in (self._fast(values), self._slow(values)))
         except (Error, ArithmeticError, ValueError):
-            return  # a sample without an answer has none either way
+            return  # a sample without a result has none either way
         if any(a != b and not abs(a - b) <= 1e-9 * max(abs(a), abs(b)) for a, b in zip(mine, wanted)):
             raise NotFast("longer pieces of pipe give other results")
 

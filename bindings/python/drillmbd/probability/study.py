@@ -325,7 +325,7 @@ def _os_error(error: BaseException, path: pathlib.Path) -> OSError:
 class Progress:
     """Progress of a study."""
     done: int
-    asked: int
+    total: int
     lost: int      #: samples without a margin so far
     message: str   #: of the last such
 
@@ -399,11 +399,11 @@ class Study:
         scales are given. NaN of a sample that failed."""
         numpy = need("numpy")
 
-        def ask(numbers: Sequence[int], z: Any) -> Any:
+        def margins_of(numbers: Sequence[int], z: Any) -> Any:
             by_number = dict(zip(numbers, z))
             margins = numpy.array([one.margins for one in self.run(numbers, by_number.__getitem__)])
             return margins[:, limit] if scales is None else (margins / numpy.asarray(scales)).min(axis=1)
-        return ask
+        return margins_of
 
 
 def usable(margins: Sequence[float]) -> bool:

@@ -113,7 +113,7 @@ class Scene:
             usual = DEFINITIONS[struct]().describe(every=True)
             return {**{key: value for key, value in usual.items() if isinstance(value, (int, float, list))}, **values}
 
-        def asked(scene: Scene) -> Any:
+        def settings(scene: Scene) -> Any:
             outputs = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.outputs]
             analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses
@@ -128,4 +128,4 @@ class Scene:
             return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.results, outputs,
                     scene.pipes, analyses, scene.limits,
                     scene.variability, failures)
-        return asked(self) == asked(other) and self.model.same_scene(other.model)
+        return settings(self) == settings(other) and self.model.same_scene(other.model)

@@ -137,7 +137,7 @@ class Reader:
             self.problems.add(path + ("name",), name, "names a failure already; give each a name of its own")
         self.names.add(str(name))
         kind, needs = KINDS[word], KINDS[word].needs
-        self._answers(path, word, kind)
+        self._check_question(path, word, kind)
         keys = {"limit": Field("limit", "quantity", kind.unit), "from": Field("from", "quantity", "s"),
                 "to": Field("to", "quantity", "s"),
                 **{key: Field(key, "quantity", one.unit) for key, one in kind.keys.items()}}
@@ -149,13 +149,14 @@ class Reader:
         return Failure(str(name), word, values.pop("limit"), values, parts, names,
                        "limit" not in table and isinstance(kind.default, float) and bool(kind.source))
 
-    def _answers(self, path: Path, word: str, kind: Kind) -> None:
+    def _check_question(self, path: Path, word: str, kind: Kind) -> None:
         """The question of [variability] must find the demand."""
         if not self.loader.content.get("variability"):
             return  # as in a sample, in which nothing varies any more
         question = self.loader.table(("variability",)).get("question", "run")
         if question in QUESTIONS and question != "auto" and question not in kind.questions:
-            self.problems.add(path + ("kind",), word, f"needs {_asked(kind.questions)}; the question is {question}")
+            self.problems.add(path + ("kind",), word,
+                              f"needs {_needed_questions(kind.questions)}; the question is {question}")
 
     def _defaults(self, path: Path, table: dict[str, Any], kind: Kind, word: str, values: dict[str, float]) -> None:
         for key, one in kind.keys.items():
@@ -228,7 +229,7 @@ class Reader:
                 if self.loader.word(component, table.get("component"), 0) == wanted]
 
 
-def _asked(questions: tuple[str, ...]) -> str:
+def _needed_questions(questions: tuple[str, ...]) -> str:
     words = {"run": 'a run in time: [variability] question = "run"', "static": 'question = "static"',
              "torque-drag": 'question = "torque-drag"'}
     return " or ".join(words[one] for one in reversed(questions))

@@ -15,7 +15,7 @@ from .._structs import Output, Id, Motor, Place, Segment
 from ..errors import Error
 from ..model import Model, motor_drive
 from . import catalogue, failure, fields, hole, units, variability, viscometer
-from .settings import Asked
+from .settings import SettingsReader
 from .overrides import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
 from .divide import Divided, divide
@@ -130,7 +130,7 @@ class Loader:
         self._describe()
         scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
                       pipes=self.pipes, time_function_units=self.units, source=Source(self.paths), inline=self.inline)
-        Asked(self).settings(scene)
+        SettingsReader(self).settings(scene)
         scene.variability = variability.Reader(self).variability()
         scene.failures = failure.Reader(self, scene.limits).failures()
         compiled = self.read(("compile",), self.table(("compile",)), fields_of(DEFINITIONS["compile"]))

@@ -167,7 +167,7 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
     file for "survey", which a scene in the folder names. Raises ValueError that names the option."""
     values: dict[str, Any] = {}
     numbers: dict[str, float] = {}
-    asked, given = given, _with_rods(kind, given)
+    typed, given = given, _with_rods(kind, given)
     survey_lines, survey_length = _surveyed(given, folder)
     for name, (unit, default, about) in OPTIONS[kind].items():
         default = survey_length if name == "length" and survey_length else default
@@ -178,7 +178,7 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
             raise ValueError(f"--{name.replace('_', '-')} {values[name]}: {error}") from error
         values[name] = _with_unit(values[name], name).replace('"', " in").strip()
     values["course"] = survey_lines or _STRAIGHT.format(dip=values["dip"])
-    values.update(_named(given, asked, values, numbers))
+    values.update(_named(given, typed, values, numbers))
     if abs(numbers["dip"]) > 0.5 * math.pi * (1.0 + 1e-12):
         raise ValueError(f"--dip {values['dip']} must be within -90 deg .. 90 deg, from the horizontal, up positive")
     if numbers["rod"] >= numbers["hole"] or not 0.0 <= numbers["bore"] < numbers["rod"]:
@@ -229,12 +229,12 @@ def _surveyed(given: dict[str, str], folder: str) -> tuple[str, str]:
             f"{rows[-1][0]:g} m")
 
 
-def _named(given: dict[str, str], asked: dict[str, str], values: dict[str, Any],
+def _named(given: dict[str, str], typed: dict[str, str], values: dict[str, Any],
            numbers: dict[str, float]) -> dict[str, str]:
     """The lines of pipes and limits. numbers: diameters of rods by name are put there."""
     lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"        # the wall is '
                       'an assumption'
-             if "bore" not in asked else f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"',
+             if "bore" not in typed else f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"',
              "limits": _LIMITS}
     if given.get("rods"):
         found = _found("rods", given["rods"])

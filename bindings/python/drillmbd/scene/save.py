@@ -353,7 +353,7 @@ class Writer:
         known = (drive.get("kind", 0), drive.get("component", 0)) if drive is not None else None
         return fields.setting_units(description.get("target", 0), known)
 
-    # ---- What is asked ----------------------------------------------------------------------------------------------
+    # ---- Settings and analyses --------------------------------------------------------------------------------------
     def _settings(self) -> None:
         self._head("[compile]", ("compile",))
         self._table("compile", self.single.get("compile") or {})

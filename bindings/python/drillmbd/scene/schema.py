@@ -108,7 +108,7 @@ def schema() -> dict[str, Any]:
     tables["section"]["properties"]["pipes"] = _many(pipes)
     properties["sub"] = _many(_object(sub.own_fields(), (), **tables))
     for kind in ANALYSES:
-        properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))
+        properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_analysis_tables(kind))
     number = {"type": ["number", "string"]}
     properties["variability"] = variability.schema(_many, _object, number, _NAME)
     properties["failure"] = failure.schema(_many, _object, number, _NAME)
@@ -116,7 +116,7 @@ def schema() -> dict[str, Any]:
             "additionalProperties": False, "properties": properties}
 
 
-def _asked(kind: str) -> dict[str, Any]:
+def _analysis_tables(kind: str) -> dict[str, Any]:
     out = output_fields()
     if kind == "response":
         return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))),

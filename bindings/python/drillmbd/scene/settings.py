@@ -1,4 +1,4 @@
-"""Questions of a scene file: options of the run, its outputs, the analyses."""
+"""Settings of a scene file: options of the run, its outputs, the analyses."""
 from __future__ import annotations
 
 import re
@@ -33,7 +33,7 @@ LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
 ORDERED = {"speeds": ("speed_low", "speed_high", False), "response": ("frequency_low", "frequency_high", True)}
 
 
-class Asked:
+class SettingsReader:
     """Reads the settings of commands into the scene, with the names and tables of a loader."""
 
     def __init__(self, loader: Loader) -> None:

@@ -1,4 +1,4 @@
-"""The question `drillmbd probability`: a study of a scene file by an engine, its estimates printed and written."""
+"""The command `drillmbd probability`: a study of a scene file by an engine, its estimates printed and written."""
 from __future__ import annotations
 
 import argparse
@@ -9,7 +9,7 @@ from ..errors import Usage
 from ..runner import carry_out
 from ..scene import load
 from . import cells, engines
-from .answer import Answer, Asked
+from .results import StudyResults, StudySettings
 from .auto import Auto
 from .draw import CannotDraw
 from .sample import Own, SceneSample
@@ -64,10 +64,10 @@ def probability(options: argparse.Namespace) -> int:
                     "the # away there, or add lines, for example:\n\n" + LEAST)
     question = options.question or known.variability.question
     sample = SceneSample(path.read_text(encoding="utf-8-sig"), str(path), str(path.parent.resolve()), _own(options.own),
-                         asked="run" if question == "auto" else question)
+                         given_question="run" if question == "auto" else question)
     try:
         if options.vary:
-            return cells.answer(sample, options)
+            return cells.probability_map(sample, options)
         sample.names
         if options.engine == "mpi":
             return _with_mpi(sample, options, question)
@@ -78,11 +78,11 @@ def probability(options: argparse.Namespace) -> int:
 
 def _alone(sample: SceneSample, options: argparse.Namespace, question: str) -> int:
     """The result of one scene by this process, which has the workers."""
-    asked = Asked(sample, options)
+    settings = StudySettings(sample, options)
     output = CommandOutput(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
     output.started = options.started
-    made = Auto(asked, output) if question == "auto" else Answer(asked, output)
-    return carry_out(sample.draw.scene, output, options, lambda *_: _answer(made))
+    made = Auto(settings, output) if question == "auto" else StudyResults(settings, output)
+    return carry_out(sample.draw.scene, output, options, lambda *_: _computed(made))
 
 
 def _with_mpi(sample: SceneSample, options: argparse.Namespace, question: str) -> int:
@@ -102,8 +102,8 @@ def _with_mpi(sample: SceneSample, options: argparse.Namespace, question: str) -
         engines.mpi_end()
 
 
-def _answer(made: Answer) -> int:
+def _computed(made: StudyResults) -> int:
     try:
-        return made.answer()
+        return made.compute()
     except (CannotDraw, StudyError) as error:
         raise Usage(str(error)) from error

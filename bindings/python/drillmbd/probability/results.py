@@ -35,7 +35,7 @@ LEFT_OUT = {"torque-drag": "by torque and drag of a soft string: pulled out, pus
                    "([variability] look)"}
 
 
-class Asked:
+class StudySettings:
     """Settings of a study, of the command line and the scene."""
 
     def __init__(self, sample: SceneSample, options: argparse.Namespace) -> None:
@@ -82,7 +82,7 @@ class Asked:
         """The design of the points."""
         return "subset" if self.method == "subset" else "indices" if self.options.indices else self.method
 
-    def settings(self) -> dict[str, Any]:
+    def identity(self) -> dict[str, Any]:
         """All that the samples of a study depend on beside the scene."""
         found: dict[str, Any] = {"seed": self.seed, "points": self.sampling}
         if self.sampling in ("latin-hypercube", "sobol", "subset"):
@@ -98,31 +98,31 @@ class Asked:
         return [abs(one.limit) or 1.0 for one in self.failures]
 
 
-class Answer:
+class StudyResults:
     """The result of one study."""
 
-    def __init__(self, asked: Asked, output: CommandOutput) -> None:
-        self.asked, self.sample, self.options, self.output = asked, asked.sample, asked.options, output
-        if asked.sample.draw.scene.results.get("units"):
+    def __init__(self, settings: StudySettings, output: CommandOutput) -> None:
+        self.settings, self.sample, self.options, self.output = settings, settings.sample, settings.options, output
+        if settings.sample.draw.scene.results.get("units"):
             output.note_text("[results] units is ignored: probability writes SI units")
-        for one in asked.failures:
+        for one in settings.failures:
             if one.assumed:
                 output.note_text(f"{one.name}: limit {amount(one.limit, KINDS[one.kind].unit)} is assumed, because the "
                                  f"scene gives none: {KINDS[one.kind].source}")
-        for text in asked.assessed.notes(asked.failures):
+        for text in settings.assessed.notes(settings.failures):
             output.note_text(text)
         self.question = self.sample.question
         self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
-        self.scales = None if self.options.failure else asked.scales()
+        self.scales = None if self.options.failure else settings.scales()
         self.started = self.shown = clock.monotonic()
         self.estimates: dict[str, Estimate] = {}
         self.demands: dict[str, Demand] = {}
         # whether any failure occurs, or that of --failure, by the number of a sample with all of its margins
         self.failing: dict[int, bool] = {}
 
-    def answer(self) -> int:
+    def compute(self) -> int:
         """Computes it; returns the exit status."""
-        asked = self.asked
+        settings = self.settings
         for text in self.sample.soft.notes() if self.sample.quick else ():
             self.output.note_text(text)
         self.output.say(f"question {self.sample.question}: {LEFT_OUT[self.sample.question]}")
@@ -130,7 +130,7 @@ class Answer:
         if study.results:
             self.output.say(f"{len(study.results)} samples are in {self.output.folder}/study.h5 already")
         try:
-            {"indices": self._indices, "subset": self._subset}.get(asked.sampling, self._counted)(study)
+            {"indices": self._indices, "subset": self._subset}.get(settings.sampling, self._counted)(study)
         except KeyboardInterrupt:
             self.stopped(study)
         finally:
@@ -142,7 +142,7 @@ class Answer:
         engine = engines.engine(self.options.engine, self.options.workers, self.options.address)
         file = None
         if self.output.folder is not None:
-            file = StudyFile(self.output.path(name), sample, self.asked.settings(), self.options.salvage)
+            file = StudyFile(self.output.path(name), sample, self.settings.identity(), self.options.salvage)
         return Study(sample, engine, file, None if self.options.quiet else self._progress)
 
     @staticmethod
@@ -157,11 +157,11 @@ class Answer:
 
     def _progress(self, at: Progress) -> None:
         now = clock.monotonic()
-        if now - self.shown < 1.0 and at.done < at.asked:
+        if now - self.shown < 1.0 and at.done < at.total:
             return
         self.shown = now
         if sys.stderr.isatty():
-            print(f"\r{at.done}/{at.asked} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="",
+            print(f"\r{at.done}/{at.total} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="",
                   file=sys.stderr)
 
     def report(self, name: str, one: Estimate) -> None:
@@ -182,17 +182,18 @@ class Answer:
 
     # ---- The three ways ----------------------------------------------------------------------------------------------
     def _counted(self, study: Study) -> None:
-        numpy, asked = need("numpy"), self.asked
-        points = Points(asked.method, asked.seed, self.sample.dimension, asked.samples, asked.replicates)
-        results = self._until(study, points) if asked.rule is not None else study.run(range(points.samples), points.z)
+        numpy, settings = need("numpy"), self.settings
+        points = Points(settings.method, settings.seed, self.sample.dimension, settings.samples, settings.replicates)
+        results = (self._until(study, points) if settings.rule is not None
+                   else study.run(range(points.samples), points.z))
         margins = numpy.array([one.margins for one in results])
         for i, name in enumerate(self.sample.names):
-            self.report(name, asked.counted(margins[:, i], points.replicates))
-        least = (margins / numpy.array(asked.scales())).min(axis=1)
-        self.report(ANY, asked.counted(least, points.replicates))
-        if asked.rule is not None:
-            self.output.say(f"--until {self.options.until}: {self.asked.of}: "
-                            f"{asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
+            self.report(name, settings.counted(margins[:, i], points.replicates))
+        least = (margins / numpy.array(settings.scales())).min(axis=1)
+        self.report(ANY, settings.counted(least, points.replicates))
+        if settings.rule is not None:
+            self.output.say(f"--until {self.options.until}: {self.settings.of}: "
+                            f"{settings.rule.verdict(self.estimates[settings.of])}, after {len(results)} samples")
         self.say_demands(results)
         if self.options.surrogate:
             z = numpy.array([points.z(number) for number in range(points.samples)])
@@ -201,14 +202,14 @@ class Answer:
 
     def _until(self, study: Study, points: Points) -> list[Result]:
         """Results in growing number, until the estimate meets the rule."""
-        numpy, asked, count = need("numpy"), self.asked, 0
-        assert asked.rule is not None
+        numpy, settings, count = need("numpy"), self.settings, 0
+        assert settings.rule is not None
         while True:
-            count = following(count, asked.samples)
+            count = following(count, settings.samples)
             results = study.run(range(count), points.z)
             margins = numpy.array([one.margins for one in results])
-            column = (margins / numpy.array(asked.scales())).min(axis=1) if self.scales else margins[:, self.limit]
-            if count >= asked.samples or asked.rule.met(asked.counted(column)):
+            column = (margins / numpy.array(settings.scales())).min(axis=1) if self.scales else margins[:, self.limit]
+            if count >= settings.samples or settings.rule.met(settings.counted(column)):
                 return results
 
     def say_demands(self, results: list[Result], weights: Any = None) -> None:
@@ -217,14 +218,14 @@ class Answer:
         numpy = need("numpy")
         demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float)
                                     for key in ("demands", "inputs", "margins"))
-        for i, one in enumerate(self.asked.failures):
-            found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence,
+        for i, one in enumerate(self.settings.failures):
+            found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.settings.confidence,
                               margins[:, i] if one.name in self.sample.limits.names else None, weights)
             if found is None:
                 continue
             self.demands[one.name] = found
             self.output.summary.setdefault("demands", {})[one.name] = found.record()
-            self.output.say(found.sentence(self.asked.confidence))
+            self.output.say(found.sentence(self.settings.confidence))
             for text in found.doubts(self.question):
                 self.output.note_text(text)
             self._say_matters(found)
@@ -255,22 +256,23 @@ class Answer:
             self.output.note_text(f"surrogate: not assessed, because of {error}"
                                   + ("; compute more samples" if "must be" in str(error) else ""))
             return
-        self.report(f"{self.asked.of}, by a surrogate",
-                    found.estimate(self.asked.seed, confidence=self.asked.confidence))
+        self.report(f"{self.settings.of}, by a surrogate",
+                    found.estimate(self.settings.seed, confidence=self.settings.confidence))
         self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} "
                         "of "
                         f"{found.tested} margins with the wrong sign")
 
     def _subset(self, study: Study) -> None:
-        asked = self.asked
-        made = Subset(asked.seed, self.sample.dimension, max(20, asked.samples // asked.replicates), asked.replicates)
-        self.report(asked.of, made.run(study.evaluate(self.limit, self.scales), asked.confidence))
+        settings = self.settings
+        made = Subset(settings.seed, self.sample.dimension, max(20, settings.samples // settings.replicates),
+                      settings.replicates)
+        self.report(settings.of, made.run(study.evaluate(self.limit, self.scales), settings.confidence))
 
     def _indices(self, study: Study) -> None:
         draw = self.sample.draw
         groups = dict(zip(self.sample.inputs, [1] * len(draw.varies.scatters) + draw.sizes[1:]))
         found: Indices = sobol_indices(study.evaluate(self.limit, self.scales), groups, self.options.indices,
-                                       self.asked.seed, self.asked.confidence)
+                                       self.settings.seed, self.settings.confidence)
         rows = []
         for i in sorted(range(len(found.names)), key=lambda i: -float(found.total[i])):
             self.output.say(f"{found.names[i]}: first order {found.first[i]:.3f} ({found.first_interval[i, 0]:.3f} .. "
@@ -310,17 +312,18 @@ class Answer:
         seconds = math.fsum(one.seconds for one in study.results.values())
         elapsed = clock.monotonic() - self.started
         self.output.summary.update(
-            seed=self.asked.seed, method=self.asked.method, engine=self.options.engine, dimension=self.sample.dimension,
+            seed=self.settings.seed, method=self.settings.method, engine=self.options.engine,
+            dimension=self.sample.dimension,
             question=self.question,
             samples=len(study.results), evaluated=study.evaluated, seconds_of_samples=seconds, elapsed=elapsed,
             lost=[{"number": n, "message": study.results[n].message} for n in lost[:1000]])
         for number in lost[:3]:
-            self.output.note_text(f"sample {number} (seed {self.asked.seed}) has no margin: "
+            self.output.note_text(f"sample {number} (seed {self.settings.seed}) has no margin: "
                                   f"{study.results[number].message}")
         if len(lost) > 3:
             self.output.note_text(f"{len(lost)} samples have no margin; summary.json has the first 1000 of them")
         rate = study.evaluated / elapsed if elapsed > 0.0 else 0.0
         self.output.say(f"{study.evaluated} samples computed in {elapsed:.1f} s, {rate:.3g} a second, "
                         f"{seconds / max(1, len(study.results)):.3g} "
-                        f"s of a processor each; {os.path.basename(self.options.scene)}, seed {self.asked.seed}")
+                        f"s of a processor each; {os.path.basename(self.options.scene)}, seed {self.settings.seed}")
         return self.output.finish(1 if study.results and len(lost) == len(study.results) else 0)
