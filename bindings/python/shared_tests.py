@@ -66,16 +66,16 @@ class FolderTest(unittest.TestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
         return self.folder / name
 
-    def answer(self, command, *more):
+    def results(self, command, *more):
         """Output and summary of a command on the scene, whose files are there."""
         output = self.folder / "out"
-        out = self.ask(command, self.scene, "--output", output, *more)
+        out = self.call(command, self.scene, "--output", output, *more)
         summary = json.loads((output / "summary.json").read_text(encoding="utf-8"))
         for name in summary["files"]:
             self.assertGreater((output / name).stat().st_size, 30, name)
         return out, summary
 
-    def ask(self, *words, status=0):
+    def call(self, *words, status=0):
         """The command in this process, which has loaded the packages: its output, or its errors where it fails."""
         from drillmbd.command import main
         out, err = io.StringIO(), io.StringIO()

@@ -6,7 +6,7 @@ from shared_tests import FolderTest, needs
 
 needs("h5py", "matplotlib", "numpy", "scipy")
 
-from test_questions import LEVEL, failure
+from test_study_analyses import LEVEL, failure
 
 TURNING = LEVEL.replace('question = "torque-drag"', 'look = "10 ms"').replace('end = "2 s"', 'end = "50 ms"')
 SURVEY = """[[variability.field]]
@@ -24,7 +24,7 @@ class AssessedTest(FolderTest):
     SCENE = LEVEL
 
     def words_of(self, text, status, *more):
-        return self.ask("probability", self.write("scene.toml", text), *FEW, *more, status=status)
+        return self.call("probability", self.write("scene.toml", text), *FEW, *more, status=status)
 
     def still(self, text):
         """The scene with a string that is not turned."""

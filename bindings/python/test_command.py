@@ -1,4 +1,4 @@
-"""Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C,
+"""Tests of the command: every analysis of a scene with its files, what is refused with its exit status, Ctrl-C,
 help."""
 import csv
 import importlib.util
@@ -92,20 +92,20 @@ class CommandTest(FolderTest):
         super().setUp()
         self.output = self.folder / "out"
 
-    def answer(self, command, *more):
-        out = self.ask(command, self.scene, "--output", self.output, *more)
+    def results(self, command, *more):
+        out = self.call(command, self.scene, "--output", self.output, *more)
         summary = json.loads((self.output / "summary.json").read_text(encoding="utf-8"))
         for name in summary["files"]:
             self.assertGreater((self.output / name).stat().st_size, 30, name)
         return out, summary
 
     def test_check(self):
-        out, summary = self.answer("check")
+        out, summary = self.results("check")
         self.assertIn("degrees of freedom", out)
         self.assertEqual(summary["model"]["pipes"], 8)
 
     def test_static(self):
-        out, summary = self.answer("static")
+        out, summary = self.results("static")
         self.assertIn("axial force", out)
         self.assertIn("static_main.csv", summary["files"])
         self.assertIn("static.vtp", summary["files"])
@@ -116,7 +116,7 @@ class CommandTest(FolderTest):
         self.assertEqual(rows[0][5], "axial force [N]")
 
     def test_run_and_its_hash(self):
-        out, summary = self.answer("run")
+        out, summary = self.results("run")
         self.assertEqual(summary["run"]["steps"], 20)
         self.assertIn("ran to 0.02 s", out)
         with open(self.output / "run.csv", encoding="utf-8", newline="") as file:
@@ -126,8 +126,8 @@ class CommandTest(FolderTest):
         # the scene that was written beside gives the same bits, without files and in another folder
         self.scene = self.output / "scene.toml"
         self.output = self.folder / "again"
-        self.assertEqual(self.answer("run")[1]["hash"], summary["hash"])
-        self.assertEqual(self.answer("run", "--until", "0.005 s", "--step", "0.5 ms")[1]["run"]["steps"], 10)
+        self.assertEqual(self.results("run")[1]["hash"], summary["hash"])
+        self.assertEqual(self.results("run", "--until", "0.005 s", "--step", "0.5 ms")[1]["run"]["steps"], 10)
 
     def test_bent_elements(self):
         """A rod of one element that sags by 0.065 rad, which is described straight: the states that are reached say so;
@@ -153,37 +153,37 @@ class CommandTest(FolderTest):
                             (rod.replace("20 mm", "80 mm"), 0)):
             self.scene = self.write("rod.toml", text)
             for command in ("static", "run"):
-                found = [one for one in self.answer(command)[1]["notes"]
+                found = [one for one in self.results(command)[1]["notes"]
                          if "mass of a straight one is bent by 0.06" in one]
                 self.assertEqual(len(found), notes, (command, found))
 
     def test_rotation_a_step(self):
         """A note from 0.12 rad a step on, where slow whirl is off by 1 %; none below, nor of pipes that move along
         their axis."""
-        out, _ = self.answer("run", "--until", "0.2 s", "--step", "9 ms")
+        out, _ = self.results("run", "--until", "0.2 s", "--step", "9 ms")
         self.assertNotIn("rad a step", out)
-        out, summary = self.answer("run", "--until", "0.2 s", "--step", "20 ms")
+        out, summary = self.results("run", "--until", "0.2 s", "--step", "20 ms")
         self.assertRegex(out,
                          r"main turns by 0\.2\d rad a step: rates of its slow whirl and precession are off by up to "
                          r"[345]\S* %; a step of \S+ ms gives 1 %")
         self.assertTrue(any("rad a step" in one for one in summary["notes"]))
-        out, _ = self.answer("run", "--until", "0.5 s", "--step", "10 s")  # one step, to the end of the run
+        out, _ = self.results("run", "--until", "0.5 s", "--step", "10 s")  # one step, to the end of the run
         self.assertRegex(out, r"main turns by [\d.]+ rad a step: .* off by up to (100|\d\d) %")
         self.scene = self.write("rig.toml", SCENE.replace("[run]", '[compile]\npipe_kind = "axial-torsional"\n[run]',
                                                           1))
-        self.assertNotIn("rad a step", self.answer("run", "--until", "0.2 s", "--step", "20 ms")[0])
+        self.assertNotIn("rad a step", self.results("run", "--until", "0.2 s", "--step", "20 ms")[0])
 
     def test_verified_run(self):
         """The last part again with half the step: the same bits before, values that come closer with the step, and
         refusals."""
-        out, plain = self.answer("run")
+        out, plain = self.results("run")
         self.assertRegex(out,
                          r"energy error \S+ of the largest energy .*change in the first tenth of the run \S+, in the "
                          r"last tenth \S+")
         self.assertIn("energy_error_first_tenth", plain)
         changes = []
         for step in ("1 ms", "0.25 ms"):
-            out, summary = self.answer("run", "--verify", "--step", step)
+            out, summary = self.results("run", "--verify", "--step", step)
             found = summary["verification"]
             self.assertAlmostEqual(found["end_s"], 0.02)
             output = found["outputs"]["torque [N m]"]
@@ -197,13 +197,13 @@ class CommandTest(FolderTest):
             self.assertIn("again with half the step", out)
         self.assertLess(changes[1], changes[0])
         self.scene = self.write("rig.toml", SCENE.replace('step = "1 ms"\n', ""))
-        self.assertIn("--verify needs a given step", self.ask("run", self.scene, "--verify", status=2))
+        self.assertIn("--verify needs a given step", self.call("run", self.scene, "--verify", status=2))
 
     def test_fatigue(self):
         """The worst pipe against stresses of the same run that are counted here: half cycles of a monotone load."""
         curve = '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\nconcentration = 1.5\n'
         self.scene = self.write("rig.toml", SCENE + curve)
-        out, summary = self.answer("run")
+        out, summary = self.results("run")
         found = summary["fatigue"]["main"]
         self.assertIn("fatigue_main.csv", summary["files"])
         self.assertIn("fatigue_main.png", summary["files"])
@@ -235,25 +235,25 @@ class CommandTest(FolderTest):
                             ('curve_stress = "1 MPa"\nslope = 3\nclasses = 4', "8 .. 65536"),
                             ('curve_stress = "1 MPa"\nslope = 3\npoints = 1', "2 .. 360")):
             scene = self.write("bad.toml", SCENE + "[fatigue]\n" + lines + "\n")
-            self.assertIn(told, self.ask("check", scene, status=2))
+            self.assertIn(told, self.call("check", scene, status=2))
         no_end = self.write("end.toml",
                             SCENE.replace('end = "20 ms"\n', "") + '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\n')
-        self.assertIn("[run] end", self.ask("check", no_end, status=2))
+        self.assertIn("[run] end", self.call("check", no_end, status=2))
 
     def test_modes_response_speeds(self):
-        out, summary = self.answer("modes", "--count", "3")
+        out, summary = self.results("modes", "--count", "3")
         self.assertEqual(len(summary["modes"]["frequency_Hz"]), 3)
         self.assertIn("without the slip", summary["notes"][0])
         self.assertIn("mode_00.vtp", summary["files"])
-        out, summary = self.answer("response")
+        out, summary = self.results("response")
         self.assertIn("middle [m]: largest", out)
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertTrue(summary["speeds"])
         self.assertIn("avoid ", out)
 
     def test_buckle(self):
         self.scene = self.write("column.toml", COLUMN)
-        out, summary = self.answer("buckle")
+        out, summary = self.results("buckle")
         self.assertAlmostEqual(summary["buckling"]["factors"][0] / (3.141592653589793 ** 2 * 1e5 / 100.0), 1.0, 3)
         self.assertEqual(summary["buckling"]["end"], "bifurcation")
 
@@ -267,12 +267,12 @@ class CommandTest(FolderTest):
             (self.folder / path.name).write_bytes(path.read_bytes())
         for path in sorted(shipped.glob("*.toml")):
             without = re.sub(r"\[buckling\][^[]*", "", path.read_text(encoding="utf-8"))
-            lines = self.ask("buckle", self.write("without.toml", without), status=2).split("for example:\n")[1]
+            lines = self.call("buckle", self.write("without.toml", without), status=2).split("for example:\n")[1]
             if path.stem != "drainage_300m":
                 # paths of a minute; that of the reference rig ends before the factor, which is extrapolated then
                 lines += "follow = 0\n"
             self.scene = self.write(path.name, without + lines)
-            out, summary = self.answer("buckle")
+            out, summary = self.results("buckle")
             found, thrust = summary["buckling"], next(iter(summary["buckling_thrust"].values()))
             self.assertEqual(bool(found["factors"]), path.stem != "vertical_1000m", out)
             self.assertEqual(len(thrust["depth_m"]), 5)
@@ -286,21 +286,21 @@ class CommandTest(FolderTest):
         self.scene = self.write("rig.toml", SCENE.replace('diameter = "94 mm"',
                                                           'diameter = "94 mm"\nmu_static = 0\nmu_dynamic = 0', 1)
                                 + '[buckling]\nscale = "all"\nfollow = 0\n')
-        out, summary = self.answer("buckle")
+        out, summary = self.results("buckle")
         area, inertia = (3.141592653589793 / 2 ** n * (0.073 ** k - 0.061 ** k) for n, k in ((2, 2), (6, 4)))
         load = 2.0 * (2.1e11 * inertia * 9.81 * 7850 * area / 0.0105) ** 0.5
         found = summary["buckling_thrust"]["main"]
         self.assertAlmostEqual(found["sinusoidal_thrust_N"][-1] / load, 1.0, 6)
         self.assertAlmostEqual(found["helical_thrust_N"][-1] / (2 ** 0.5 * load), 1.0, 6)
         self.scene = self.write("column.toml", COLUMN.replace("start_free = []", "start_free = [\"rx\"]"))
-        self.assertRegex(self.ask("buckle", self.scene, status=1),
+        self.assertRegex(self.call("buckle", self.scene, status=1),
                          "^drillmbd: buckling: not assessed, because no drive holds")
-        told = self.ask("torque-drag", self.scene, status=1)
+        told = self.call("torque-drag", self.scene, status=1)
         self.assertRegex(told, "^drillmbd: torque and drag: the model has no hole")
 
     def test_torque_drag(self):
-        out, summary = self.answer("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths",
-                                   "5")
+        out, summary = self.results("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths",
+                                    "5")
         rows = next(iter(summary["torque_drag"].values()))
         self.assertEqual(sorted(rows), ["back-ream", "drill", "pick-up", "rotate", "slack-off", "slide"])
         self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
@@ -311,9 +311,9 @@ class CommandTest(FolderTest):
         and frictions."""
         self.scene = self.write("rig.toml", SCENE.replace("eccentricity", 'yield_strength = "400 MPa"\neccentricity',
                                                           1))
-        out, summary = self.answer("torque-drag", "--depths", "4 m,8 m", "--frictions", "0.5,0.2", "--block-weight",
-                                   "3 kN",
-                                   "--weight-on-bit", "1 kN")
+        out, summary = self.results("torque-drag", "--depths", "4 m,8 m", "--frictions", "0.5,0.2", "--block-weight",
+                                    "3 kN",
+                                    "--weight-on-bit", "1 kN")
         area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         weight = 9.81 * 7850 * area
         table = summary["torque_drag_by_depth"]["main"]["pick-up"]
@@ -339,12 +339,12 @@ class CommandTest(FolderTest):
             self.assertAlmostEqual(loads[1], 3e3 - friction * weight * 8, 6)
             self.assertAlmostEqual(torques[0], friction * weight * 4 * 0.0365, 6)
         self.assertIn("broomstick_main.png", summary["files"])
-        self.assertIn("friction coefficients 0.15, 0.3, 0.45", self.ask("torque-drag", self.scene, "--depths", "2"))
+        self.assertIn("friction coefficients 0.15, 0.3, 0.45", self.call("torque-drag", self.scene, "--depths", "2"))
         for words, wanted in ((["--depths", "9 m"], "at most 8 m"), (["--depths", "0"], "outside 1"),
                               (["--frictions", "0.2,x"], "no number"),
                               (["--frictions", "-1"], "outside 0 .. 10"),
                               (["--block-weight", "3 m"], "--block-weight")):
-            self.assertIn(wanted, self.ask("torque-drag", self.scene, *words, status=2))
+            self.assertIn(wanted, self.call("torque-drag", self.scene, *words, status=2))
 
     def test_broomstick_of_a_hole_with_sections(self):
         """The friction of each section times 0.5, 1 and 1.5; a coefficient of the command line takes the place of
@@ -354,7 +354,7 @@ class CommandTest(FolderTest):
                                 SCENE
                                 + '[[hole.section]]\ndepth = "4 m"\nmu_static = 0.5\nmu_dynamic = 0.4\ntransition = "1 '
                                   'mm"\n')
-        out, summary = self.answer("torque-drag", "--depths", "8 m")
+        out, summary = self.results("torque-drag", "--depths", "8 m")
         broom = summary["broomstick"]["main"]
         self.assertEqual((broom["factor"], broom["friction"]), ([0.5, 1.0, 1.5], None))
         for factor, loads in zip(broom["factor"], broom["pick-up_hook_load_N"]):
@@ -363,10 +363,10 @@ class CommandTest(FolderTest):
                                summary["torque_drag"]["main"]["pick-up"]["hook_load_N"], 9)
         self.assertIn("broomstick: 0.5, 1 and 1.5 times the wall's friction at each depth", out)
         log = self.write("log.csv", f"depth [m],pick-up [N]\n8,{weight * 4 * (0.3 + 0.4):.6f}\n")
-        out, summary = self.answer("torque-drag", "--depths", "8 m", "--measured", log)
+        out, summary = self.results("torque-drag", "--depths", "8 m", "--measured", log)
         self.assertIn("first one coefficient for all sections of the hole, then one for each section", out)
         self.assertAlmostEqual(summary["measured"]["main"]["pick-up"]["friction"], 0.35, 4)
-        out, summary = self.answer("torque-drag", "--depths", "8 m", "--friction", "0.2")
+        out, summary = self.results("torque-drag", "--depths", "8 m", "--friction", "0.2")
         self.assertEqual(summary["broomstick"]["main"]["friction"], [0.1, 0.2, 0.3])
 
     def test_torque_drag_loads_of_the_scene(self):
@@ -375,7 +375,7 @@ class CommandTest(FolderTest):
             '[[time_function]]\nname = "bit load"\nsegment = {h0 = "2 kN"}\n'
         self.scene = self.write("rig.toml", scene)
         for words, weight, torque in ((), 2e3, 30.0), (("--weight-on-bit", "4 kN"), 4e3, 60.0):
-            out, summary = self.answer("torque-drag", *words)
+            out, summary = self.results("torque-drag", *words)
             self.assertAlmostEqual(summary["operations"]["drill"]["weight_on_bit_N"], weight)
             self.assertAlmostEqual(summary["operations"]["drill"]["torque_on_bit_N_m"], torque)
             self.assertIn("estimated: 0.5 x weight on bit x bit diameter / 3", out)
@@ -390,7 +390,7 @@ class CommandTest(FolderTest):
         path = self.write("log.csv", "MD [ft];pick_up [kN];slack_off [lbf];Rotating weight [kN];Torque [N m]\n"
                           + "".join(f"{d / 0.3048:.9f};{p / 1e3:.9f};{s / 4.4482216152605:.9f};{r / 1e3:.3f};{t:.9f}\n"
                                     for d, p, s, r, t in rows))
-        out, summary = self.answer("torque-drag", "--measured", path, "--block-weight", "2 kN")
+        out, summary = self.results("torque-drag", "--measured", path, "--block-weight", "2 kN")
         found = summary["measured"]["main"]
         self.assertAlmostEqual(found["pick-up"]["friction"], 0.25, 6)
         self.assertAlmostEqual(found["torque"]["friction"], 0.2, 6)
@@ -406,11 +406,11 @@ class CommandTest(FolderTest):
                              ("depth [m],pick up [kN]\n9,3\n", "at most 8 m"),
                              ("depth [m],inc [deg],azi [deg]\n5,3,3\n", "no column of loads"),
                              ("a,b\n1,2\n", "no head names depth; give the heads")):
-            self.assertIn(wanted, self.ask("torque-drag", self.scene, "--measured", self.write("bad.csv", text),
-                                           status=2))
-        self.ask("torque-drag", self.scene, "--measured", self.folder / "none.csv", status=3)
+            self.assertIn(wanted, self.call("torque-drag", self.scene, "--measured", self.write("bad.csv", text),
+                                            status=2))
+        self.call("torque-drag", self.scene, "--measured", self.folder / "none.csv", status=3)
         log = "depth [m],hook load [kN],operation\n4,0.3,pick-up\n8,99,slack off\n"
-        out = self.ask("torque-drag", self.scene, "--measured", self.write("log.csv", log))
+        out = self.call("torque-drag", self.scene, "--measured", self.write("log.csv", log))
         self.assertIn("confidence not assessed, because one measurement has no scatter", out)
         self.assertIn("hook load, slack-off: friction not assessed, because no coefficient", out)
 
@@ -420,7 +420,7 @@ class CommandTest(FolderTest):
         weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         turning = 0.3 * weight * 0.0365  # N m per metre
         self.scene = self.write("rig.toml", SCENE + f'[limits]\ntorque = "{5.5 * turning:.9f} N m"\npull = "1 kN"\n')
-        out, summary = self.answer("torque-drag", "--depths", "8")
+        out, summary = self.results("torque-drag", "--depths", "8")
         found = summary["rig_limits"]["main"]
         self.assertAlmostEqual(found["reach_m"], 5.5, 6)
         self.assertEqual(found["first_limit"], "torque")
@@ -429,28 +429,28 @@ class CommandTest(FolderTest):
         self.assertIn("this rig reaches 5.5 m: torque (rotate)", out)
         self.assertIn("thrust: not assessed, because [limits] has no push", out)
         self.assertIn("rig_limits_main.csv", summary["files"])
-        self.assertRegex(self.ask("torque-drag", self.scene, "--weight-on-bit", "800 kN"),
+        self.assertRegex(self.call("torque-drag", self.scene, "--weight-on-bit", "800 kN"),
                          r"\d{3,4} % of the helical buckling load")
-        self.assertIn("exceeded at 6 m, the first depth", self.ask("torque-drag", self.scene, "--depths", "6 m"))
+        self.assertIn("exceeded at 6 m, the first depth", self.call("torque-drag", self.scene, "--depths", "6 m"))
         self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 kN"\n')
-        self.assertRegex(self.ask("torque-drag", self.scene),
+        self.assertRegex(self.call("torque-drag", self.scene),
                          r"not reached down to 8 m: thrust 233 N, 23 % of the limit \(slack-off at 8 m\)")
-        self.assertIn("this rig reaches 7.999 m: thrust (slide)", self.ask("torque-drag", self.scene, "--weight-on-bit",
-                                                                           f"{1e3 - 0.3 * weight * 7.999:.6f} N",
-                                                               "--depths", "4"))
+        self.assertIn("this rig reaches 7.999 m: thrust (slide)",
+                      self.call("torque-drag", self.scene, "--weight-on-bit",
+                                f"{1e3 - 0.3 * weight * 7.999:.6f} N", "--depths", "4"))
         self.scene = self.write("rig.toml", SCENE)
         self.assertIn("limits of the rig: not assessed, because the scene has no [limits]",
-                      self.ask("torque-drag", self.scene))
+                      self.call("torque-drag", self.scene))
 
     def test_stuck(self):
-        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction",
-                                   "0")
+        out, summary = self.results("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction",
+                                    "0")
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3, 3)
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3, 3)
         self.assertAlmostEqual(summary["stuck"]["torque"]["at_bit_N_m"], 500.0)
-        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--overpull",
-                                   "10 kN",
-                                   "--stretch", "0.1 mm")
+        out, summary = self.results("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--overpull",
+                                    "10 kN",
+                                    "--stretch", "0.1 mm")
         area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
         rubbed = 0.3 * 8 * 9.81 * 7850 * area
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3 - rubbed, 3)
@@ -459,24 +459,24 @@ class CommandTest(FolderTest):
         self.assertNotIn("free as far as", out)
         whole = 1e3 * 10e3 * 8 / (2.1e11 * area)  # [mm]
         for stretch, noted in ((1.1 * whole, False), (1.3 * whole, True), (1000.0, True)):
-            found = self.ask("stuck", self.scene, "--overpull", "10 kN", "--stretch", f"{stretch} mm")
+            found = self.call("stuck", self.scene, "--overpull", "10 kN", "--stretch", f"{stretch} mm")
             self.assertIn(f"free as far as the string goes: it would lengthen by {whole:.4g} mm, which is less", found)
             self.assertEqual("check --stretch and --overpull" in found, noted, found)
         self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
-        self.assertIn("nothing arrives", self.ask("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
+        self.assertIn("nothing arrives", self.call("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
         for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"],
                       ["--overpull", "-1 kN", "--stretch", "1 mm"]):
-            self.ask("stuck", self.scene, *words, status=2)
+            self.call("stuck", self.scene, *words, status=2)
 
     def test_sweep(self):
-        self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary",
-                 "hole.diameter=94 mm,5 mm",
-                 "-o", self.output, "--", "--depths", "2", status=1)
+        self.call("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary",
+                  "hole.diameter=94 mm,5 mm",
+                  "-o", self.output, "--", "--depths", "2", status=1)
         # 0.35, not more
-        self.ask("sweep", self.scene, "check", "--vary", "hole.mu_dynamic=0.1:0.35:6", "-o", self.folder / "grid")
+        self.call("sweep", self.scene, "check", "--vary", "hole.mu_dynamic=0.1:0.35:6", "-o", self.folder / "grid")
         self.assertIn("\n6,0.35,ok", (self.folder / "grid" / "sweep.csv").read_text())
-        self.assertIn("--output", self.ask("sweep", self.scene, "report", "--vary", "hole.mu_dynamic=0.1,0.2",
-                                           status=2))
+        self.assertIn("--output", self.call("sweep", self.scene, "report", "--vary", "hole.mu_dynamic=0.1,0.2",
+                                            status=2))
         with open(self.output / "sweep.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["status"] for row in rows], ["ok", "failed"] * 3)
@@ -487,19 +487,19 @@ class CommandTest(FolderTest):
         self.assertGreater(pulls[1], pulls[0])
         self.assertTrue((self.output / "00001" / "summary.json").exists())
         for wrong in ("diameter", "hole.diameter=", "[0]=1", "hole.diameter=1 mm:2 m:3", "hole.diameter=1:2:1"):
-            self.assertIn("--vary", self.ask("sweep", self.scene, "check", "--vary", wrong, status=2))
-        self.assertIn("no table nothing", self.ask("sweep", self.scene, "check", "--vary", "nothing[3].there=1,2",
-                                                   status=2))
+            self.assertIn("--vary", self.call("sweep", self.scene, "check", "--vary", wrong, status=2))
+        self.assertIn("no table nothing", self.call("sweep", self.scene, "check", "--vary", "nothing[3].there=1,2",
+                                                    status=2))
 
     def test_without_a_folder_nothing_is_written(self):
-        self.ask("static", self.scene)
-        self.assertEqual(self.ask("run", self.scene, "--quiet"), "")
+        self.call("static", self.scene)
+        self.assertEqual(self.call("run", self.scene, "--quiet"), "")
         self.assertEqual(os.listdir(self.folder), ["rig.toml"])
 
     def test_save_and_schema(self):
-        self.ask("save", self.scene, self.folder / "copy.toml")
-        self.assertEqual(self.ask("save", self.folder / "copy.toml", "-"), (self.folder / "copy.toml").read_text())
-        self.assertEqual(json.loads(self.ask("schema"))["type"], "object")
+        self.call("save", self.scene, self.folder / "copy.toml")
+        self.assertEqual(self.call("save", self.folder / "copy.toml", "-"), (self.folder / "copy.toml").read_text())
+        self.assertEqual(json.loads(self.call("schema"))["type"], "object")
 
     @unittest.skipUnless(importlib.util.find_spec("argcomplete"), "not there: argcomplete")
     def test_completion(self):
@@ -513,33 +513,33 @@ class CommandTest(FolderTest):
         self.assertIn("--depths", pathlib.Path(self.folder, "words").read_text())
 
     def test_help(self):
-        self.assertIn("examples:", self.ask("--help"))
+        self.assertIn("examples:", self.call("--help"))
         for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "report",
                         "save", "schema"):
-            self.assertIn("usage: drillmbd", self.ask(command, "--help"))
-        self.assertRegex(self.ask("--version"), r"drillmbd \d+\.\d+\.\d+")
+            self.assertIn("usage: drillmbd", self.call(command, "--help"))
+        self.assertRegex(self.call("--version"), r"drillmbd \d+\.\d+\.\d+")
 
     def test_refusals(self):
         bad = self.write("bad.toml", SCENE.replace("diameter = \"94 mm\"", "diametre = \"94 mm\"\nmu_static = -1"))
-        told = self.ask("check", bad, status=2)
+        told = self.call("check", bad, status=2)
         self.assertIn("bad.toml:3: hole.diametre: unknown key; did you mean diameter?", told)
         self.assertIn("bad.toml:4: hole.mu_static = -1: must", told)
-        self.ask(status=2)
-        self.ask("chek", self.scene, status=2)
-        self.ask("run", self.scene, "--until", "5 kg", status=2)
-        self.ask("run", self.scene, "--until", "-5 s", status=2)
-        self.assertIn("[buckling]", self.ask("buckle", self.scene, status=2))
-        self.assertIn("none.toml", self.ask("check", self.folder / "none.toml", status=3))
-        self.assertIn("modes", self.ask("modes", self.scene, "--count", "100000", status=1))
+        self.call(status=2)
+        self.call("chek", self.scene, status=2)
+        self.call("run", self.scene, "--until", "5 kg", status=2)
+        self.call("run", self.scene, "--until", "-5 s", status=2)
+        self.assertIn("[buckling]", self.call("buckle", self.scene, status=2))
+        self.assertIn("none.toml", self.call("check", self.folder / "none.toml", status=3))
+        self.assertIn("modes", self.call("modes", self.scene, "--count", "100000", status=1))
         no_end = self.write("end.toml", SCENE.replace('end = "20 ms"\n', ""))
-        self.assertIn("--until", self.ask("run", no_end, status=2))
+        self.assertIn("--until", self.call("run", no_end, status=2))
 
     def test_unit_needs_a_file(self):
-        self.assertIn("is a folder", self.ask("fmu", self.scene, "-o", self.folder, status=2))
+        self.assertIn("is a folder", self.call("fmu", self.scene, "-o", self.folder, status=2))
 
     def test_folder_that_cannot_be_written(self):
         for target in ("/dev/null/out", self.scene, "/proc/out"):
-            self.ask("static", self.scene, "--output", target, status=3)
+            self.call("static", self.scene, "--output", target, status=3)
 
     def test_report(self):
         try:
@@ -548,7 +548,7 @@ class CommandTest(FolderTest):
             self.skipTest("not there: plotly")
         self.scene = self.write("rig.toml", drilled(SCENE) + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n'
                                 '[fatigue]\ncurve_stress = "100 MPa"\nslope = 4\n')
-        out, summary = self.answer("report")
+        out, summary = self.results("report")
         self.assertRegex(out, r"Thrust at the rig: .*, OVER \(\d+ % of 1 N")
         self.assertRegex(out, r"Torque at the rig: .*, OK \(")
         self.assertIn("0.02", str(summary["run"]["time_s"]))
@@ -558,7 +558,7 @@ class CommandTest(FolderTest):
         for part in ("Critical speeds", "Fatigue along the string", "Thrust at the rig", "Assumptions", "model check",
                      summary["hash"]):
             self.assertIn(part, page)
-        self.assertIn("--output", self.ask("report", self.scene, status=2))
+        self.assertIn("--output", self.call("report", self.scene, status=2))
         self.browse(self.output / "report.html", page.count('class="figure"'))
 
     def test_verdicts(self):
@@ -606,10 +606,10 @@ class CommandTest(FolderTest):
     def test_nothing_excites(self):
         self.scene = self.write("still.toml", "\n".join(one for one in SCENE.split("\n") if "eccentricity" not in one
                                                         or "kind" in one))
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("not assessed, because all excitations are zero", out)
         self.assertFalse(summary["speeds_assessed"])
-        out, summary = self.answer("response")
+        out, summary = self.results("response")
         self.assertIn("not assessed", out)
         self.assertNotIn("largest 0", out)
 

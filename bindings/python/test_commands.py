@@ -62,7 +62,7 @@ class ShippedTest(FolderTest):
         return self.write(path.name, text)
 
     def test_every_command(self):
-        """Status 0, an answer, no traceback, and each warning of the scene as a note."""
+        """Status 0, a result, no traceback, and each warning of the scene as a note."""
         from drillmbd import scene
         from drillmbd.scene.warned import warnings_of
         for path in SHIPPED:
@@ -70,7 +70,7 @@ class ShippedTest(FolderTest):
             known = [f"note: {text}\n" for text in warnings_of(scene.load(short))]
             for words in COMMANDS:
                 with self.subTest(scene=path.name, command=words[0]):
-                    out = self.ask(words[0], short, *words[1:])
+                    out = self.call(words[0], short, *words[1:])
                     self.assertGreater(len(out), 40)
                     self.assertNotIn("Traceback", out)
                     self.assertEqual([text for text in known if text not in out], [])
@@ -78,10 +78,10 @@ class ShippedTest(FolderTest):
     def test_report_save_and_unit(self):
         for path in SHIPPED:
             short = self.short(path)
-            self.assertIn("[sim]", self.ask("save", short, "-"))
+            self.assertIn("[sim]", self.call("save", short, "-"))
             try:
                 import plotly.offline  # noqa: F401
-                self.ask("report", short, "-o", self.folder / "report")
+                self.call("report", short, "-o", self.folder / "report")
                 self.assertTrue((self.folder / "report" / "report.html").exists())
             except ImportError:
                 pass
@@ -193,11 +193,11 @@ class NonsenseTest(FolderTest):
                              ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:1e3"),
                              ("is empty", "check", "-o", "")):
             with self.subTest(words=words):
-                self.assertIn(told, self.ask(words[0], self.scene, *words[1:], status=2))
+                self.assertIn(told, self.call(words[0], self.scene, *words[1:], status=2))
         for command in ("torque-drag", "stuck"):
-            self.assertIn("is about a string, the scene has none", self.ask(command, body, status=2))
-        self.assertNotIn("no rotation", self.ask("check", body))
-        self.assertIn("is empty", self.ask("check", "", status=2))
+            self.assertIn("is about a string, the scene has none", self.call(command, body, status=2))
+        self.assertNotIn("no rotation", self.call("check", body))
+        self.assertIn("is empty", self.call("check", "", status=2))
 
     def test_unit_replaces_no_device(self):
         """A target that is no file stays what it is."""
@@ -221,7 +221,7 @@ class NonsenseTest(FolderTest):
                             'mean = 1\ndeviation = "40 %"\ncorrelation_length = "10 m"\nspacing = "5 m"\nto = "300 '
                             'm"\n')):
             with self.subTest(text=text[:60]):
-                self.assertIn(told, self.ask("check", self.write("bad.toml", text), status=2))
+                self.assertIn(told, self.call("check", self.write("bad.toml", text), status=2))
 
     def test_missing_tables(self):
         """The least lines are enough."""
@@ -229,8 +229,8 @@ class NonsenseTest(FolderTest):
         for command, more in (("response", ()), ("speeds", ()), ("buckle", ()),
                               ("probability", ("--samples", "1", "--engine", "serial"))):
             with self.subTest(command=command):
-                lines = self.ask(command, self.write("bare.toml", bare), *more, status=2).split("for example:\n")[1]
-                self.ask(command, self.write("more.toml", bare + lines), *more)
+                lines = self.call(command, self.write("bare.toml", bare), *more, status=2).split("for example:\n")[1]
+                self.call(command, self.write("more.toml", bare + lines), *more)
 
 
 class PictureTest(unittest.TestCase):
@@ -299,7 +299,7 @@ class EndTest(FolderTest):
 
     def test_statuses_are_listed_once(self):
         from drillmbd.exit_status import STATUSES, text
-        self.assertIn(text(), self.ask("--help"))
+        self.assertIn(text(), self.call("--help"))
         guide = ROOT / "examples" / "README.md"
         if guide.exists():
             table = dict(re.findall(r"^\| (\d+) \| (.*) \|$", guide.read_text(encoding="utf-8"), re.M))
@@ -309,7 +309,7 @@ class EndTest(FolderTest):
         """An analysis that fails leaves the reason, the status and the time."""
         loose = self.write("loose.toml", LOOSE)
         for command in ("static", "run"):
-            error = self.ask(command, loose, "-o", self.folder / command, status=1)
+            error = self.call(command, loose, "-o", self.folder / command, status=1)
             found = self.summary(command)
             self.assertEqual(found["status"], 1)
             self.assertEqual(f"drillmbd: {found['error']}\n", error)
@@ -321,7 +321,7 @@ class EndTest(FolderTest):
         from drillmbd import commands
         for name in commands.COMMANDS:
             with mock.patch.dict(commands.COMMANDS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
-                self.ask(name, self.scene, "-o", self.folder / "out", status=130)
+                self.call(name, self.scene, "-o", self.folder / "out", status=130)
             found = self.summary()
             self.assertEqual((found["command"], found["status"]), (name, 130))
             self.assertIn("stopped by Ctrl-C", found["notes"][-1])
@@ -354,7 +354,7 @@ class EndTest(FolderTest):
     def test_elapsed(self):
         """The time of the whole command, by the clock."""
         begun = time.perf_counter()
-        self.ask("run", self.scene, "-o", self.folder / "out")
+        self.call("run", self.scene, "-o", self.folder / "out")
         elapsed = time.perf_counter() - begun
         found = self.summary()
         self.assertEqual(found["status"], 0)
@@ -376,21 +376,21 @@ class EndTest(FolderTest):
             return real(*arguments)
 
         with mock.patch.dict(commands.COMMANDS, {"stuck": stop_at_third}):
-            self.ask(*words, status=130)
+            self.call(*words, status=130)
             found = self.summary()
             self.assertEqual((found["status"], found["computed"], found["cases"]), (130, 2, 3))
-            out = self.ask(*words)
+            out = self.call(*words)
         self.assertEqual(len(seen), 4)  # the third case alone
         self.assertEqual(out.count("as computed before"), 2)
         found, table = self.summary(), (self.folder / "out" / "sweep.csv").read_text()
         self.assertEqual((found["status"], found["computed"], found["kept"]), (0, 1, 2))
         shutil.rmtree(self.folder / "out")
-        self.ask(*words)
+        self.call(*words)
         self.assertEqual((self.folder / "out" / "sweep.csv").read_text(), table)
-        self.assertIn("3 of 3 cases", self.ask(*words[:-1], "30 kN"))
+        self.assertIn("3 of 3 cases", self.call(*words[:-1], "30 kN"))
         self.assertEqual(self.summary()["kept"], 0)
         self.scene.write_text(self.scene.read_text().replace('"1 mm"', '"2 mm"'))
-        self.ask(*words[:-1], "30 kN")
+        self.call(*words[:-1], "30 kN")
         self.assertEqual(self.summary()["kept"], 0)
 
     def test_interrupted_imports(self):

@@ -13,7 +13,7 @@ needs("h5py", "matplotlib", "numpy", "scipy")
 
 import numpy as np
 from scipy import stats
-from test_questions import LEVEL, WEIGHT, failure
+from test_study_analyses import LEVEL, WEIGHT, failure
 
 from drillmbd import scene
 from drillmbd.probability.cells import Cell, Map, paired
@@ -46,7 +46,7 @@ PUSH = failure("rig-push", limit="9.7 kN")
 class DrawnTest(FolderTest):
     SCENE = LEVEL + RIG + PUSH
 
-    def test_every_question(self):
+    def test_every_analysis(self):
         """margin = limit of the sample - demand, by a limit of the failure itself and by one of [limits] that it
         takes."""
         for question in ("torque-drag", "static"):
@@ -82,7 +82,7 @@ high = "6 kN"
 
     def test_probability(self):
         """P(limit < demand) of two normal numbers; the limit is what to measure better."""
-        out = self.ask("probability", self.scene, "-o", self.folder / "out", "--samples", 2000, "--engine", "serial")
+        out = self.call("probability", self.scene, "-o", self.folder / "out", "--samples", 2000, "--engine", "serial")
         summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
         mean, deviation = 8000.0 + 0.3 * WEIGHT - 9700.0, math.hypot(0.03 * WEIGHT, 100.0)
         known, one = stats.norm.sf(-mean / deviation), summary["estimates"]["rig-push"]
@@ -114,7 +114,7 @@ deviation = 0.1
 
     def test_a_segment_per_revolution_has_no_factor(self):
         """Its values are known in a run only: refused once, before the first sample."""
-        said = self.ask("probability", self.scene, "--samples", 4, "--engine", "serial", status=2)
+        said = self.call("probability", self.scene, "--samples", 4, "--engine", "serial", status=2)
         self.assertIn("speed of the feed: time function feeding: a segment of kind per-revolution cannot be multiplied",
                       said)
         self.assertIn('use how = "added"', said)
@@ -128,7 +128,7 @@ class DefaultTest(FolderTest):
 
     def test_sources(self):
         """A default of a coal seam is stated with its source; without a source there is none."""
-        out = self.ask("probability", self.scene, "--samples", 10, "--engine", "serial", "-o", self.folder / "out")
+        out = self.call("probability", self.scene, "--samples", 10, "--engine", "serial", "-o", self.folder / "out")
         notes = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))["notes"]
         self.assertTrue(any("is assumed" in one and "10.3390/pr13072195" in one for one in notes), (out, notes))
         self.assertEqual(scene.loads(LEVEL + failure("wall-pressure", width="20 mm")).failures[0].limit,
@@ -178,15 +178,15 @@ class TogetherTest(FolderTest):
                 by_number(key, content)
         for command in (("sweep", self.scene, "check"), ("probability", self.scene, "--samples", 10, "--engine",
                                                          "serial")):
-            self.ask(*command, "--vary", "time_function[turning].segment.h1=60 rpm,80 rpm", "-o",
-                     self.folder / command[0])
-            said = self.ask(*command, "--vary", "time_function[turn].segment.h1=60 rpm,80 rpm", status=2)
+            self.call(*command, "--vary", "time_function[turning].segment.h1=60 rpm,80 rpm", "-o",
+                      self.folder / command[0])
+            said = self.call(*command, "--vary", "time_function[turn].segment.h1=60 rpm,80 rpm", status=2)
             self.assertIn("did you mean turning?", said)
         saved = scene.load(self.folder / "probability" / "00002" / "scene.toml")
         segments = [arguments for name, arguments in saved.model.calls if name == "add_time_function"][1]
         self.assertAlmostEqual(segments[0]["h1"], 80.0 * math.pi / 30.0, 12)
-        said = self.ask("probability", self.scene, "--vary", "time_function[turning].segment.h1=60 rpm", "--vary",
-                        "time_function[1].segment.h1=70 rpm", status=2)
+        said = self.call("probability", self.scene, "--vary", "time_function[turning].segment.h1=60 rpm", "--vary",
+                         "time_function[1].segment.h1=70 rpm", status=2)
         self.assertIn("each key once", said)
         rock = '''[[variability.scatter]]
 name = "speed"
@@ -201,8 +201,8 @@ high = "90 rpm"
         with self.assertRaisesRegex(scene.SceneError, "no .*time_function.* is named turn; did you mean turning"):
             scene.loads(self.SCENE + rock.replace("[turning]", "[turn]"))
         (self.folder / "more.toml").write_text(self.SCENE + rock, encoding="utf-8")
-        said = self.ask("probability", self.folder / "more.toml", "--vary", "time_function[turning].segment.h1=60 rpm",
-                        status=2)
+        said = self.call("probability", self.folder / "more.toml", "--vary", "time_function[turning].segment.h1=60 rpm",
+                         status=2)
         self.assertIn("each sample has a value of its own, of speed", said)
 
     def test_names_that_look_like_something_else(self):
@@ -227,8 +227,8 @@ high = "90 rpm"
         (self.folder / "one.toml").write_text(self.SCENE.replace('"feeding"', '"1"'), encoding="utf-8")
         for command in (("sweep", self.folder / "one.toml", "check"), ("probability", self.folder / "one.toml",
                                                                        "--samples", 10, "--engine", "serial")):
-            self.assertIn("is named 1", self.ask(*command, "--vary", "time_function[1].segment.h1=60 rpm,80 rpm",
-                                                 status=2))
+            self.assertIn("is named 1", self.call(*command, "--vary", "time_function[1].segment.h1=60 rpm,80 rpm",
+                                                  status=2))
         speed = ('[[variability.scatter]]\nkey = "time_function[1].segment.h1"\ndistribution = "uniform"\nlow = "60 '
                  'rpm"\nhigh = "90 rpm"\n')
         named = self.SCENE.replace('name = "feeding"', 'name = "1"').replace('time_function = "feeding"',
@@ -241,13 +241,13 @@ high = "90 rpm"
         keys = "hole.mu_static & hole.mu_dynamic"
         for command in (("sweep", self.scene, "check"), ("probability", self.scene, "--samples", 20, "--engine",
                                                          "serial")):
-            self.ask(*command, "--vary", f"{keys}=0.2,0.4 & 0.25", "-o", self.folder / command[0])
+            self.call(*command, "--vary", f"{keys}=0.2,0.4 & 0.25", "-o", self.folder / command[0])
         with open(self.folder / "sweep" / "sweep.csv", encoding="utf-8", newline="") as file:
             self.assertEqual([row[keys] for row in csv.DictReader(file)], ["0.2", "0.4 & 0.25"])
         saved = scene.load(self.folder / "probability" / "00002" / "scene.toml")
         wall = next(arguments[0] for name, arguments in saved.model.calls if name == "add_wall")
         self.assertEqual((wall["mu_static"], wall["mu_dynamic"]), (0.4, 0.25))
-        said = self.ask("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
+        said = self.call("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
         self.assertIn("each key once", said)
 
     def test_a_map_of_the_question_auto(self):

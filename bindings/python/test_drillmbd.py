@@ -115,7 +115,7 @@ class InterfaceTest(unittest.TestCase):
         prototypes = stored_prototypes()
         self.assertGreater(len(prototypes), 70)
         results = {"int32_t": ctypes.c_int32, "void": None, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32,
-                   "size_t": ctypes.c_size_t, "const char *": ctypes.c_char_p, "const dmb_sim *": ctypes.c_void_p}
+                    "size_t": ctypes.c_size_t, "const char *": ctypes.c_char_p, "const dmb_sim *": ctypes.c_void_p}
         for name, (result, arguments) in prototypes.items():
             function = getattr(mbd._lib, name)
             self.assertIs(function.restype, results[result], name)
@@ -201,7 +201,7 @@ class SceneTest(unittest.TestCase):
         self.assertAlmostEqual(info.length, 5.0)
         self.assertEqual(self.rig.model.sim_memory_size(), info.sim_bytes)
 
-    def test_run_and_ask(self):
+    def test_run_and_query(self):
         self.run_to(0.05)
         pose, motion = self.sim.pose(self.rig.tip), self.sim.motion(self.rig.tip)
         self.assertAlmostEqual(self.sim.time, 0.05)
@@ -554,8 +554,8 @@ class WholeModelTest(unittest.TestCase):
                 self.assertEqual(sim.hash(), before)
                 self.assertAlmostEqual(report.first_bifurcation / euler, 1.0, 4)
                 self.assertIn(mbd.PATH_BRANCH, [kind for kind, _, _ in tips])
-                for _, asked, told in tips:
-                    self.assertEqual(asked, told)
+                for _, requested, told in tips:
+                    self.assertEqual(requested, told)
 
                 def raises(at, point):
                     raise KeyError(point.number)
@@ -834,9 +834,9 @@ class CallbackTest(unittest.TestCase):
                 sim.step(1e-3)
             assert_step_fails(self, sim)
 
-    def test_wrong_answers(self):
-        for answer in (math.nan, math.inf, None, "text"):
-            model, _ = self.build(lambda time, answer=answer: answer if time > 0.0015 else 0.0)
+    def test_wrong_values_returned(self):
+        for returned in (math.nan, math.inf, None, "text"):
+            model, _ = self.build(lambda time, returned=returned: returned if time > 0.0015 else 0.0)
             with model.sim() as sim:
                 sim.step(1e-3)
                 with self.assertRaises(mbd.Error) as caught:
@@ -996,10 +996,10 @@ class ForceTest(unittest.TestCase):
             assert_step_fails(self, sim)
             self.assertTrue(calls)
 
-    def test_wrong_answers(self):
-        for answer in ([0.0] * 5, [math.nan] * 6, None, "text"):
+    def test_wrong_values_returned(self):
+        for returned in ([0.0] * 5, [math.nan] * 6, None, "text"):
             with self.assertRaises(mbd.Error) as caught:
-                sim, _ = self.ball(lambda time, poses, velocities, answer=answer: answer)
+                sim, _ = self.ball(lambda time, poses, velocities, returned=returned: returned)
                 with sim:
                     sim.step(1e-3)
             self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)

@@ -79,7 +79,7 @@ strength = "40 MPa"
 
 
 class Toy:
-    """A sample that is quick; some do what is asked of them in `deeds`: "die" (once), "kill" (always), "fail"."""
+    """A sample that is quick; some do what `deeds` says: "die" (once), "kill" (always), "fail"."""
     names, inputs, dimension = ["one", "two"], ["x"], 3
 
     def __init__(self, folder, deeds=None, pause=0.0):
@@ -114,7 +114,7 @@ class Base(FolderTest):
     SCENE = SCENE
 
     def command(self, *words, status=0):
-        return self.ask("probability", *words, status=status)
+        return self.call("probability", *words, status=status)
 
     def rows(self, name="out"):
         rows = read_rows(self.folder / name / "study.h5")[0]
@@ -237,7 +237,7 @@ class FileTest(Base):
 
 
 class CommandTest(Base):
-    def test_answer(self):
+    def test_result(self):
         out = self.command(self.scene, "-o", self.folder / "out", "--samples", 30, "--workers", 2)
         summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
         with open(self.folder / "out" / "samples.csv", encoding="utf-8", newline="") as file:

@@ -1,6 +1,6 @@
-"""Tests of failure probabilities against limit states with known answers: linear (FORM to 1e-6), four branches, a noisy
+"""Tests of failure probabilities against limit states with known results: linear (FORM to 1e-6), four branches, a noisy
 oscillator, products of lognormals; every method inside its interval. With --whole 100 repeats of each instead of 10,
-and the rate at which 95 % intervals hold the answer.
+and the rate at which 95 % intervals contain the result.
 Equations: eq:probability.clopper-pearson, eq:probability.designs, eq:probability.subset, eq:probability.conditional,
 eq:probability.subset-bias, eq:probability.form, eq:probability.sobol, eq:probability.surrogate."""
 import math

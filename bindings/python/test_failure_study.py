@@ -30,7 +30,7 @@ class StudyTest(FolderTest):
 
     def test_command(self):
         out, vary = self.folder / "out", [word for one in self.words() for word in ("--vary", one)]
-        said = self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
+        said = self.call("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
         summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
         self.assertEqual(len(summary["cells"]), 4)  # contact only, vibration, friction, both
         failing = []
@@ -46,7 +46,7 @@ class StudyTest(FolderTest):
         self.assertIn("exact McNemar test", said)
         self.assertTrue((out / "map.png").exists())  # keys with one value are no axes
         before = [read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)]
-        self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
+        self.call("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
         self.assertEqual([read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist()
                           for number in range(1, 5)], before)
 

@@ -362,12 +362,12 @@ class Fmu(FolderTest):
             sim.static()
             inputs = [Excitation(kind=EXCITATION_SETTING, place=mbd.station(loaded.model.inputs()[name].input))
                       for name in at]
-            asked = [0, len(outputs) - 1]  # torque of the head, acceleration
+            requested = [0, len(outputs) - 1]  # torque of the head, acceleration
             D = sim.state_space(inputs, [(loaded.outputs[i][1], loaded.outputs[i][2])
-                                         for i in asked]).D
+                                         for i in requested]).D
         self.assertGreater(abs(D[1]).min(), 1e-9)
         for column, name in enumerate(at):
-            for row, i in enumerate(asked):
+            for row, i in enumerate(requested):
                 self.assertAlmostEqual(found[name][i], D[row, column], delta=1e-7 * abs(D[row]).max(),
                                        msg=f"{name}, {i}")
         seed = [3.0, -2.0, 0.5]
@@ -501,14 +501,14 @@ class Fmu(FolderTest):
 
     def test_command(self):
         target = self.folder / "unit.fmu"
-        text = self.ask("fmu", str(self.scene), "-o", str(target))
+        text = self.call("fmu", str(self.scene), "-o", str(target))
         self.assertIn("2 inputs and parameters, 3 outputs", text)
         self.assertTrue(zipfile.is_zipfile(target))
-        self.ask("fmu", str(self.scene), "--version", "2", "-q")
+        self.call("fmu", str(self.scene), "--version", "2", "-q")
         self.assertTrue((self.folder / "rig.fmu").exists())
-        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[output]]")[0])),
-                                             status=2))
-        self.ask("fmu", str(self.scene), "-o", str(self.folder / "nowhere" / "x.fmu"), status=3)
+        self.assertIn("no outputs", self.call("fmu", str(self.write("bare.toml", SCENE.split("[[output]]")[0])),
+                                              status=2))
+        self.call("fmu", str(self.scene), "-o", str(self.folder / "nowhere" / "x.fmu"), status=3)
         help_text = subprocess.run([*COMMAND, "fmu", "--help"], env=ENVIRONMENT, capture_output=True, text=True,
                                    check=True).stdout
         self.assertIn("drillmbd fmu rig.toml -o rig.fmu", help_text)

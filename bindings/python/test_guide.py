@@ -85,22 +85,22 @@ class GuideTest(unittest.TestCase):
         self.assertLessEqual(len(README.splitlines()), 130)
 
     def test_lines_that_a_question_needs(self):
-        """A question whose table the scene lacks tells the least lines; the scene with them is answered."""
+        """A command whose table the scene lacks prints an example of it; the scene with its lines has a result."""
         from drillmbd.command import main
         scene = block("toml").replace('count = 30', 'count = 6\neccentricity = "1 mm"')
-        for question in ("response", "speeds", "buckle"):
+        for command in ("response", "speeds", "buckle"):
             with tempfile.TemporaryDirectory() as folder:
                 path = pathlib.Path(folder, "hole.toml")
                 path.write_text(scene, encoding="utf-8")
                 told = io.StringIO()
                 with contextlib.redirect_stderr(told):
-                    self.assertEqual(main([question, str(path)]), 2)
+                    self.assertEqual(main([command, str(path)]), 2)
                 lines = told.getvalue().split("for example:\n")[1]
                 path.write_text(scene + lines, encoding="utf-8")
-                if question == "buckle":  # whether it buckles is the scene's affair
+                if command == "buckle":  # whether it buckles is the scene's affair
                     output_of(lambda: self.assertEqual(main(["check", str(path)]), 0))
                 else:
-                    output_of(lambda: self.assertEqual(main([question, str(path)]), 0, question))
+                    output_of(lambda: self.assertEqual(main([command, str(path)]), 0, command))
 
     def test_program(self):
         told = output_of(exec, compile(block("python"), "guide", "exec"), {})

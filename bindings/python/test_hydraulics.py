@@ -82,8 +82,8 @@ class ViscometerTest(unittest.TestCase):
 class HydraulicsTest(FolderTest):
     def command(self, text):
         self.write("well.toml", text)
-        said = self.ask("torque-drag", str(self.folder / "well.toml"), "--output", str(self.folder / "out"), "--depths",
-                        "90 m,180 m")
+        said = self.call("torque-drag", str(self.folder / "well.toml"), "--output", str(self.folder / "out"),
+                         "--depths", "90 m,180 m")
         return said, json.loads((self.folder / "out" / "summary.json").read_text()), self.folder / "out"
 
     def test_table_and_sentence(self):

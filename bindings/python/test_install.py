@@ -148,9 +148,9 @@ class InstallTest(unittest.TestCase):
         source = prefix / "share" / "bash-completion" / "completions" / "drillmbd"
         for words, wanted in ((["drillmbd", "tor"], "torque-drag"), (["drillmbd", "run", "x.toml", "--unt"], "--until"),
                               (["drillmbd", "probability", "--engine", "da"], "dask")):
-            ask = (f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo '
-                   f'"${{COMPREPLY[@]}}"')
-            self.assertEqual(run("bash", "-c", ask).strip(), wanted)
+            call = (f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo '
+                    f'"${{COMPREPLY[@]}}"')
+            self.assertEqual(run("bash", "-c", call).strip(), wanted)
 
     def test_cmake(self):
         prefix = self.folder / "prefix"

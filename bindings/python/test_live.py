@@ -225,7 +225,7 @@ class Page(FolderTest):
         subprocess.run(["python3", ROOT / "bindings/web/generate.py", self.package], check=True)
         shutil.copy(ROOT / "bindings/web/drillmbd.mjs", self.package)
         for name in live.LIBRARIES:
-            (self.package / name).write_bytes(b"\0asm\1\0\0\0")  # of the library only its place is asked here
+            (self.package / name).write_bytes(b"\0asm\1\0\0\0")  # only the place of the library is used here
 
     def test_a_page_is_one_file_without_a_network(self):
         for path in SCENARIOS:
@@ -269,23 +269,23 @@ class Page(FolderTest):
         path, page = ROOT / "examples/live/free_drilling.toml", pathlib.Path(self.folder) / "page.html"
         environment = {**ENVIRONMENT, "DRILLMBD_WEB": str(self.package)}
 
-        def ask(*words):
+        def call(*words):
             return subprocess.run([*COMMAND, "live", str(path), *words], capture_output=True, text=True,
                                   env=environment)
-        done = ask("-o", str(page))
+        done = call("-o", str(page))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("MB, opens in a browser", done.stdout)
         self.assertTrue(page.read_text(encoding="utf-8").startswith("<!doctype html>"))
         log = self.log(path)
         target = pathlib.Path(self.folder) / "log.json"
         target.write_text(json.dumps(log), encoding="utf-8")
-        done = ask("--replay", str(target))
+        done = call("--replay", str(target))
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         self.assertIn(f"hash {log['hash']}, as in the browser", done.stdout)
         for change, text in (({"hash": "0" * 16}, "another version"), ({"checksum": "1"}, "log of another scene"),
                              ({"time": "x"}, "no log")):
             target.write_text(json.dumps({**log, **change}), encoding="utf-8")
-            done = ask("--replay", str(target))
+            done = call("--replay", str(target))
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(text, done.stdout + done.stderr)
 

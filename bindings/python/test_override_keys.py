@@ -56,33 +56,33 @@ class OverrideKeysTest(FolderTest):
         for command in (("sweep", self.scene, "check"),
                         ("probability", self.scene, "--samples", 5, "--engine", "serial")):
             for vary, wanted in WRONG:
-                said = self.ask(*command, "--vary", vary, "-o", self.folder / "out", status=2)
+                said = self.call(*command, "--vary", vary, "-o", self.folder / "out", status=2)
                 self.assertTrue(said.startswith("drillmbd: --vary '"), said)
                 self.assertIn(wanted, said)
                 self.assertEqual(list(self.folder.glob("out/*/")), [])
 
     def test_each_key_once(self):
         for command in (("sweep", self.scene, "check"), ("probability", self.scene)):
-            said = self.ask(*command, "--vary", "hole.diameter=94 mm", "--vary", "hole[0].diameter=98 mm", status=2)
+            said = self.call(*command, "--vary", "hole.diameter=94 mm", "--vary", "hole[0].diameter=98 mm", status=2)
             self.assertIn("'hole.diameter': is given 2 times; give each key once", said)
 
     def test_faults_of_values_and_of_the_file_are_those_of_cases(self):
         for vary, wanted in (("hole.mu_dynamic=0.2,-1", "mu_dynamic = -1"), ("hole.diameter=94 mm,3 s", "3 s"),
                              ("string.pipes.count=8,-2", "count = -2")):
             out = self.folder / wanted
-            self.ask("sweep", self.scene, "check", "--vary", vary, "-o", out, status=1)
+            self.call("sweep", self.scene, "check", "--vary", vary, "-o", out, status=1)
             with open(out / "sweep.csv", encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
             self.assertEqual([row["status"] for row in rows], ["ok", "failed"])
             self.assertIn(wanted, rows[1]["message"])
         broken = self.write("broken.toml", self.SCENE + "\n[hole\n")
-        self.ask("sweep", broken, "check", "--vary", "hole.mu_dynamic=0.2", status=1)
-        self.assertIn("did you mean", self.ask("sweep", broken, "check", "--vary", "hole.mu_dynamik=0.2", status=2))
+        self.call("sweep", broken, "check", "--vary", "hole.mu_dynamic=0.2", status=1)
+        self.assertIn("did you mean", self.call("sweep", broken, "check", "--vary", "hole.mu_dynamik=0.2", status=2))
 
     def test_tables_that_the_scene_leaves_out_are_made(self):
-        self.ask("sweep", self.scene, "check", "--vary", "environment.fluid_density=1000 kg/m^3,1200 kg/m^3", "--vary",
-                 "run.end=1 s", "--vary", "modes.count=3", "--vary", "hole.section.diameter=96 mm", "--vary",
-                 "hole.section.depth=3 m")
+        self.call("sweep", self.scene, "check", "--vary", "environment.fluid_density=1000 kg/m^3,1200 kg/m^3", "--vary",
+                  "run.end=1 s", "--vary", "modes.count=3", "--vary", "hole.section.diameter=96 mm", "--vary",
+                  "hole.section.depth=3 m")
 
     def test_keys_of_the_shipped_scenes_are_accepted(self):
         count = 0

@@ -540,7 +540,7 @@ class PageTest(FolderTest):
     def page(self, *more, text=None, name="out"):
         if text is not None:
             self.scene = self.write("rig.toml", text)
-        out = self.ask("report", self.scene, "-o", self.folder / name, *more)
+        out = self.call("report", self.scene, "-o", self.folder / name, *more)
         return out, (self.folder / name
                      / "report.html").read_text(encoding="utf-8"), json.loads((self.folder / name
                                                                                / "summary.json").read_text())
@@ -650,7 +650,7 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
     def test_probability(self):
         needs("h5py", "scipy", "openturns")
         self.scene = self.write("rig.toml", SCENE + STUDY)
-        self.ask("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q")
+        self.call("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q")
         studied = json.loads((self.folder / "study" / "summary.json").read_text(encoding="utf-8"))["estimates"]["pull"]
         out, page, summary = self.page("--probability", self.folder / "study")
         tiles = {one["title"]: one for one in summary["verdicts"]}
@@ -693,15 +693,15 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
     def test_probability_of_another_scene(self):
         needs("h5py", "scipy", "openturns")
         self.scene = self.write("rig.toml", SCENE + STUDY)
-        self.ask("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q", "--samples", "2")
+        self.call("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q", "--samples", "2")
         other = self.write("other.toml", (SCENE + STUDY).replace('"2 kN"', '"3 kN"'))
-        text = self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
+        text = self.call("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
         self.assertIn("is a study of another scene", text)
-        self.assertIn("no complete study", self.ask("report", other, "-o", self.folder / "x", "--probability",
-                                                    self.folder / "none", status=2))
+        self.assertIn("no complete study", self.call("report", other, "-o", self.folder / "x", "--probability",
+                                                     self.folder / "none", status=2))
         before = (self.folder / "study" / "summary.json").read_bytes()
-        self.assertIn("give another --output", self.ask("report", self.scene, "-o", self.folder / "study",
-                                                        "--probability", self.folder / "study", status=2))
+        self.assertIn("give another --output", self.call("report", self.scene, "-o", self.folder / "study",
+                                                         "--probability", self.folder / "study", status=2))
         self.assertEqual((self.folder / "study" / "summary.json").read_bytes(), before)
 
     def test_no_failure_seen_is_no_zero(self):

@@ -85,7 +85,7 @@ class ResumeTest(FolderTest):
             return real(sim, duration)
 
         with mock.patch.object(mbd.Sim, "step", step):
-            return self.ask(*words, status=status)
+            return self.call(*words, status=status)
 
     def summary(self, name):
         return json.loads((self.folder / name / "summary.json").read_text(encoding="utf-8"))
@@ -102,25 +102,25 @@ class ResumeTest(FolderTest):
 
     def test_same_bits(self):
         """Stopped twice within stretches and once between two, with all that counts on the way."""
-        self.ask("run", self.scene, "-o", self.folder / "whole", "--verify")
+        self.call("run", self.scene, "-o", self.folder / "whole", "--verify")
         words = ("run", self.scene, "-o", self.folder / "parts", "--verify")
         for step, at in ((13, 0.013), (37, 0.05), (135, 0.185)):
             self.stop_at(step, *words)
             found = self.summary("parts")
             self.assertAlmostEqual(found["run"]["time_s"], at)
             self.assertIn("the same command continues from there", found["notes"][-1])
-        out = self.ask(*words)
+        out = self.call(*words)
         self.assertIn("the run continues at 0.185 s", out)
         self.assert_same("whole", "parts")
         self.assertEqual(self.summary("parts")["run"]["steps"], 200)
         self.assertFalse((self.folder / "parts" / run_state.FILE).exists())
-        self.assertNotIn("goes on", self.ask(*words))  # complete: from the beginning
+        self.assertNotIn("goes on", self.call(*words))  # complete: from the beginning
 
     def test_steps_of_its_own_choice(self):
         """Without a step the run is divided into hundredths of all of it, not of the rest."""
         self.scene.write_text(SCENE.replace('step = "1 ms"\n', "").replace('vtk_interval = "0.05 s"\n', ""),
                               encoding="utf-8")
-        self.ask("run", self.scene, "-o", self.folder / "whole")
+        self.call("run", self.scene, "-o", self.folder / "whole")
         real, seen = mbd.Sim.advance, []
 
         def advance(sim, time_):
@@ -130,17 +130,17 @@ class ResumeTest(FolderTest):
             return real(sim, time_)
 
         with mock.patch.object(mbd.Sim, "advance", advance):
-            self.ask("run", self.scene, "-o", self.folder / "parts", status=130)
-        self.ask("run", self.scene, "-o", self.folder / "parts")
+            self.call("run", self.scene, "-o", self.folder / "parts", status=130)
+        self.call("run", self.scene, "-o", self.folder / "parts")
         self.assert_same("whole", "parts")
 
     def test_after_a_crash(self):
         """The state that is kept once a minute is there after the program went down."""
-        self.ask("run", self.scene, "-o", self.folder / "whole")
+        self.call("run", self.scene, "-o", self.folder / "whole")
         with mock.patch.object(run_state, "EVERY", -1.0):
             with self.assertRaises(RuntimeError):
                 self.stop_at(42, "run", self.scene, "-o", self.folder / "parts", raising=RuntimeError("down"), status=1)
-        self.assertIn("continues at 0.041 s", self.ask("run", self.scene, "-o", self.folder / "parts"))
+        self.assertIn("continues at 0.041 s", self.call("run", self.scene, "-o", self.folder / "parts"))
         self.assert_same("whole", "parts")
 
     def test_other_settings(self):
@@ -154,12 +154,13 @@ class ResumeTest(FolderTest):
         for words in (("run", self.scene, "--step", "2 ms"), ("run", self.scene, "--until", "0.1 s"), ("run", other)):
             stopped()
             self.assertIn("is of another scene, other options or another version; the run starts again",
-                          self.ask(*words, "-o", self.folder / "out"), words)
+                          self.call(*words, "-o", self.folder / "out"), words)
         stopped()
         with mock.patch.object(run_state, "code", lambda: {"version": "another"}):
-            self.assertIn("starts again", self.ask("run", self.scene, "-o", self.folder / "out"))
+            self.assertIn("starts again", self.call("run", self.scene, "-o", self.folder / "out"))
         stopped()
-        self.assertIn("continues at 0.04 s", self.ask("run", self.scene, "--units", "field", "-o", self.folder / "out"))
+        self.assertIn("continues at 0.04 s",
+                      self.call("run", self.scene, "--units", "field", "-o", self.folder / "out"))
 
     def test_damaged_state(self):
         """A file that is none, or half of one, is passed over; bytes of the state that do not fit are refused with the
@@ -170,15 +171,15 @@ class ResumeTest(FolderTest):
         for content in (b"", b"no archive", whole[:len(whole) // 2]):
             file.write_bytes(content)
             self.assertIn("cannot be read; the run starts again",
-                          self.ask("run", self.scene, "-o", self.folder / "out"))
+                          self.call("run", self.scene, "-o", self.folder / "out"))
         import numpy
         file.write_bytes(whole)
         with numpy.load(file) as read:
             arrays = {name: read[name] for name in read.files}
         arrays["sim"] = arrays["sim"][:-8]
         numpy.savez(file, **arrays)
-        self.assertIn("remove it, and the run starts again", self.ask("run", self.scene, "-o", self.folder / "out",
-                                                                      status=2))
+        self.assertIn("remove it, and the run starts again", self.call("run", self.scene, "-o", self.folder / "out",
+                                                                       status=2))
 
     def test_nothing_to_go_on_from(self):
         """Without a folder, and after a second Ctrl-C that came between a step and its samples, the run starts again
@@ -193,16 +194,16 @@ class ResumeTest(FolderTest):
             return report
 
         with mock.patch.object(mbd.Sim, "step", impatient):
-            self.ask("run", self.scene, "-o", self.folder / "out", status=130)
+            self.call("run", self.scene, "-o", self.folder / "out", status=130)
         self.assertIn("the same command starts again", self.summary("out")["notes"][-1])
         self.assertFalse((self.folder / "out" / run_state.FILE).exists())
         self.stop_at(40, "run", self.scene)
 
     def test_sweep_goes_on_within_a_case(self):
         words = ("sweep", self.scene, "run", "--vary", "hole.mu_dynamic=0.2,0.3", "-o")
-        self.ask(*words, self.folder / "whole")
+        self.call(*words, self.folder / "whole")
         self.stop_at(240, *words, self.folder / "parts")
-        self.ask(*words, self.folder / "parts")
+        self.call(*words, self.folder / "parts")
         self.assertIn("continues at 0.04 s", self.summary("parts/00002")["notes"][0])
         self.assert_same("whole/00002", "parts/00002")
 
@@ -210,7 +211,7 @@ class ResumeTest(FolderTest):
         """Stopped in the run, and after it; the page is the same but for the note."""
         needs("plotly.offline")
         from drillmbd import report_linear
-        self.ask("report", self.scene, "-o", self.folder / "whole")
+        self.call("report", self.scene, "-o", self.folder / "whole")
         words = ("report", self.scene, "-o", self.folder / "parts")
         self.stop_at(51, *words)
         self.assertIn("the same command continues from there", " ".join(self.summary("parts")["notes"]))
@@ -218,10 +219,10 @@ class ResumeTest(FolderTest):
                 "drillmbd.report.__dict__", {"buckling_tile": mock.Mock(side_effect=KeyboardInterrupt)}):
             with mock.patch.object(report_linear, "speeds", side_effect=KeyboardInterrupt), mock.patch(
                     "drillmbd.report.limits_at_the_rig", side_effect=KeyboardInterrupt):
-                self.ask(*words, status=130)
+                self.call(*words, status=130)
         real = []
         with mock.patch.object(mbd.Sim, "step", lambda *_: real.append(0)):
-            out = self.ask(*words)
+            out = self.call(*words)
         self.assertEqual(real, [])  # no step is computed again
         self.assertIn("continues at 0.2 s", out)
         self.assert_same("whole", "parts", ("verdicts", "hash", "energy_error", "run", "fatigue"))

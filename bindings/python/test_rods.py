@@ -58,21 +58,21 @@ class RodsTest(FolderTest):
                                 ('[limits]\npull = "500 kN"\n', True)):
             for text, drilled in ((bare, False), (SCENE, True)):
                 scene = self.write("bare.toml", text + limits)
-                out = self.ask("rod-by-rod", scene)
+                out = self.call("rod-by-rod", scene)
                 self.assertEqual((", OK\n" in out, "drilling is not assessed" in out),
                                  (cleared or drilled, not cleared and not drilled), out)
-                self.assertEqual("drilling is not assessed" in self.ask("torque-drag", scene, "--depths", "2"),
+                self.assertEqual("drilling is not assessed" in self.call("torque-drag", scene, "--depths", "2"),
                                  not cleared and not drilled)
         law = self.write("law.toml", SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload')
                          + '[limits]\ntorque = "50 kN m"\n')
         for command in ("rod-by-rod", "torque-drag"):
-            self.assertIn("the torque of drilling is not assessed", self.ask(command, law))
-            self.assertNotIn("not assessed, because that", self.ask(command, law, "--torque-on-bit", "100 N m"))
+            self.assertIn("the torque of drilling is not assessed", self.call(command, law))
+            self.assertNotIn("not assessed, because that", self.call(command, law, "--torque-on-bit", "100 N m"))
 
     def test_each_number_of_rods(self):
         """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they
         reach."""
-        out, summary = self.answer("rod-by-rod")
+        out, summary = self.results("rod-by-rod")
         rows = summary["rod_by_rod"]["main"]["rods"]
         self.assertEqual([row["depth_m"] for row in rows], [5.0, 8.0, 9.5, 11.0, 12.5, 14.0, 15.5, 17.0, 18.5, 20.0])
         for rods in (1, 2, 5, 10):
@@ -94,21 +94,21 @@ class RodsTest(FolderTest):
         self.assertIn("rods_main.png", summary["files"])
 
     def test_limits(self):
-        _, free = self.answer("rod-by-rod")
+        _, free = self.results("rod-by-rod")
         torque = [row["torque_N_m"] for row in free["rod_by_rod"]["main"]["rods"]]
         between = 0.5 * (torque[5] + torque[6])
-        out, summary = self.answer("rod-by-rod", "--make-up", f"{between!r} N m")
+        out, summary = self.results("rod-by-rod", "--make-up", f"{between!r} N m")
         found = summary["rod_by_rod"]["main"]
         self.assertEqual(found["rods_within_limits"], 6)
         self.assertEqual([row["verdict"] for row in found["rods"]][6:], ["OVER"] * 4)
         self.assertIn("6 rods stay within the given limits, bit at 14 m; rod 7 exceeds make-up torque", out)
         self.scene = self.write("limits.toml",
                                 SCENE + '[limits]\ntorque = "100 kN m"\npush = "100 kN"\npull = "100 kN"\n')
-        out, summary = self.answer("rod-by-rod", "--make-up", "100 kN m")
+        out, summary = self.results("rod-by-rod", "--make-up", "100 kN m")
         self.assertIn("all 10 rods stay within the given limits", out)
         self.assertNotIn("torque: not assessed", out)
-        self.assertIn("must be > 0", self.ask("rod-by-rod", self.scene, "--make-up", "0 N m", status=2))
-        self.assertIn("--make-up", self.ask("rod-by-rod", self.scene, "--make-up", "2 kN", status=2))
+        self.assertIn("must be > 0", self.call("rod-by-rod", self.scene, "--make-up", "0 N m", status=2))
+        self.assertIn("--make-up", self.call("rod-by-rod", self.scene, "--make-up", "2 kN", status=2))
 
     def test_lock_up(self):
         """A string that locks up is over any limit, and without one too."""
@@ -122,7 +122,7 @@ class RodsTest(FolderTest):
             self.assertIn("with rod 2 the string locks up (slide)", rod_by_rod._reach(rows, limits, rod_by_rod.Units()))
 
     def test_units(self):
-        out, summary = self.answer("rod-by-rod", "--units", "field")
+        out, summary = self.results("rod-by-rod", "--units", "field")
         self.assertEqual(summary["units"], "field")
         with open(self.folder / "out" / "rods_main.csv", encoding="utf-8") as file:
             table = list(csv.reader(file))
@@ -131,8 +131,8 @@ class RodsTest(FolderTest):
         self.assertIn("ft-lbf", out)
 
     def test_sweep(self):
-        self.ask("sweep", self.scene, "rod-by-rod", "--vary", "hole.mu_dynamic=0.2,0.3", "-o", self.folder / "sweep",
-                 "-q")
+        self.call("sweep", self.scene, "rod-by-rod", "--vary", "hole.mu_dynamic=0.2,0.3", "-o", self.folder / "sweep",
+                  "-q")
         with open(self.folder / "sweep" / "sweep.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["status"] for row in rows], ["ok", "ok"])

@@ -156,18 +156,18 @@ class LinearStateTest(SpeedsTest):
 
     def test_state_is_said(self):
         for command in ("response", "speeds"):
-            out = self.ask(command, self.scene)
+            out = self.call(command, self.scene)
             self.assertIn("linear about the string that slides on the wall at 100 rpm", out)
         still = self.write("still.toml", SCENE.replace('h1 = "100 rpm"', 'h1 = "0 rpm"'))
-        self.assertNotIn("slides", self.ask("response", still))
-        self.assertIn("slides on the wall at 150 rpm", self.ask("speeds", still))  # the middle of the range
+        self.assertNotIn("slides", self.call("response", still))
+        self.assertIn("slides on the wall at 150 rpm", self.call("speeds", still))  # the middle of the range
 
     def test_saved_state(self):
         """A saved scene has the state, and gives the same."""
         for command in ("response", "speeds"):
-            first = self.ask(command, self.scene)
-            self.ask("save", self.scene, self.folder / "copy.toml")
-            self.assertEqual(self.ask(command, self.folder / "copy.toml"), first)
+            first = self.call(command, self.scene)
+            self.call("save", self.scene, self.folder / "copy.toml")
+            self.assertEqual(self.call(command, self.folder / "copy.toml"), first)
         self.assertIn("spin = ", (self.folder / "copy.toml").read_text(encoding="utf-8"))
 
     def test_a_refused_state_is_replaced(self):
@@ -189,14 +189,14 @@ class LinearStateTest(SpeedsTest):
                                  (60, 90, True)):
             self.scene = self.write("range.toml", SCENE.replace('"60 rpm"', f'"{low} rpm"').replace('"240 rpm"',
                                                                                                   f'"{high} rpm"'))
-            self.assertEqual("100 rpm is outside the range of [speeds]" in self.ask("speeds", self.scene), noted,
+            self.assertEqual("100 rpm is outside the range of [speeds]" in self.call("speeds", self.scene), noted,
                              (low, high))
 
     def test_a_refused_state_is_no_all_clear(self):
         """The command, its range and the report say not assessed where the sliding state has no solution and no band
         was found."""
         self.scene = self.write("high.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + RANGE)
-        self.assertIn("no critical speed between", self.ask("speeds", self.scene))
+        self.assertIn("no critical speed between", self.call("speeds", self.scene))
         static = mbd.Sim.static
 
         def refusing(sim, *arguments, **fields):
@@ -205,7 +205,7 @@ class LinearStateTest(SpeedsTest):
             return static(sim, *arguments, **fields)
 
         with unittest.mock.patch.object(mbd.Sim, "static", refusing):
-            out, summary = self.answer("speeds")
+            out, summary = self.results("speeds")
             self.assertIn("speeds of the string that turns: not assessed", out)
             self.assertIn("(4 cases, all combinations): not assessed", out)
             self.assertNotIn("no critical speed", out)
@@ -280,14 +280,14 @@ class RigTorqueTest(FolderTest):
 
     def test_said(self):
         for command in ("speeds", "response"):
-            out, summary = self.answer(command)
+            out, summary = self.results(command)
             self.assertRegex(out, r"slides on the wall at 100 rpm, turned by [0-9.]+ N m, which friction takes")
             self.assertGreater(summary["linear_state"]["torque_N_m"], 5.0)
 
     def test_shipped_scene(self):
         """The steered rig turns by a torque: its sliding state is there, at both ends of the range of friction too."""
         self.scene = EXAMPLES / "steered_rig.toml"
-        _, summary = self.answer("speeds")
+        _, summary = self.results("speeds")
         self.assertTrue(summary["speeds_assessed"])
         self.assertEqual(summary["speeds_range"]["not_assessed"], 0)
 
@@ -318,7 +318,7 @@ class NoResponseTest(SpeedsTest):
 
     def peaks(self, text):
         self.scene = self.write("one.toml", text)
-        out, summary = self.answer("response")
+        out, summary = self.results("response")
         return out, summary["response"]["middle [m]" if "middle [m]" in summary["response"] else "middle [rad]"]
 
     def test_response(self):
@@ -335,7 +335,7 @@ class NoResponseTest(SpeedsTest):
 
     def test_speeds(self):
         self.scene = self.write("one.toml", self.SCENE)
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("not assessed, because the orders of [speeds] excite none of its outputs", out)
         self.assertNotIn("no critical speed", out)
         self.assertFalse(summary["speeds_assessed"])
@@ -347,7 +347,7 @@ class NoResponseTest(SpeedsTest):
         turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = '
                    '"vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning)
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("middle [m]: not assessed, because the excitation moves the string, but not this output", out)
         self.assertNotIn("turning [rad]: not assessed", out)
         self.assertNotIn("no critical speed", out)
@@ -370,7 +370,7 @@ class NoResponseTest(SpeedsTest):
         turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\nquantity = '
                    '"vibration-rz"\nlimit = "1e6 deg"\n')
         self.scene = self.write("beside.toml", self.SCENE + turning + RANGE)
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertRegex(out, r"\(4 cases, all combinations\): not assessed; 4 of the 4 cases")
         self.assertEqual(summary["speeds_range"]["not_assessed"], 4)
 
@@ -380,7 +380,7 @@ class NoResponseTest(SpeedsTest):
         self.scene = self.write("two.toml", SCENE.replace("threshold = 100", "threshold = 1e6")
                                 + '[[speeds.order]]\norder = 2\nkind = "drive"\n'
                                 'place = "feed"\namplitude = "0 mm/s"\n')
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("speeds: not assessed, because 1 of the 2 orders move no output", out)
         self.assertNotIn("no critical speed", out)
         self.assertFalse(summary["speeds_assessed"])
@@ -414,13 +414,13 @@ class RangeTest(FolderTest):
         self.assertEqual(speed_range.union([(5.0, 6.0), (1.0, 2.0), (1.5, 3.0), (3.0, 4.0)]), [(1.0, 4.0), (5.0, 6.0)])
 
     def test_no_range_is_said(self):
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("range: not assessed, because the scene gives no uncertain diameter or friction", out)
         self.assertIsNone(summary["speeds_range"])
         hint = re.search(r"keys = \[.*?\] and relative = true", out)[0].replace(" and ", "\n")
         self.scene = self.write("hint.toml", SCENE
                                 + f'[[variability.scatter]]\n{hint}\ndistribution = "uniform"\nlow = 0.7\nhigh = 1.3\n')
-        self.assertEqual(self.answer("speeds")[1]["speeds_range"]["not_assessed"], 0)
+        self.assertEqual(self.results("speeds")[1]["speeds_range"]["not_assessed"], 0)
 
     def test_the_reason_of_an_incomplete_static_state(self):
         """The note is the library's message, which its status refers to."""
@@ -442,7 +442,7 @@ class RangeTest(FolderTest):
                                     SCENE.replace('threshold = 100',
                                                   'threshold = 3000').replace('speed_high = "240 rpm"',
                                                                               'speed_high = "300 rpm"') + scatter)
-            out, summary = self.answer("speeds")
+            out, summary = self.results("speeds")
             found[high] = summary["speeds_range"]["bands_rpm"]
             self.assertEqual("speeds between these bands are not shown to be free" in out, len(found[high]) > 1, out)
         self.assertGreater(len(found[1.2]), 1, found)
@@ -453,7 +453,7 @@ class RangeTest(FolderTest):
         """The band of the range begins where that of its widest hole does, and covers that of each breakpoint."""
         text = SCENE.replace('threshold = 100', 'threshold = 1000')
         self.scene = self.write("range.toml", text + RANGE)
-        out, summary = self.answer("speeds")
+        out, summary = self.results("speeds")
         self.assertIn("over the range of friction (0.2 .. 0.4), diameter (0.094 .. 0.104 m) (4 cases, all "
                       "combinations)", out)
         ranges = summary["speeds_range"]["bands_rpm"]
@@ -463,7 +463,7 @@ class RangeTest(FolderTest):
                 breakpoint = self.write("breakpoint.toml", text.replace('"94 mm"', f'"{diameter}"',
                                                                         1).replace("0.30", str(mu)))
                 self.scene = breakpoint
-                for band in self.answer("speeds")[1]["speeds"]:
+                for band in self.results("speeds")[1]["speeds"]:
                     lows.append(band["low_rpm"])
                     self.assertTrue(any(low <= band["low_rpm"] + 1e-6 and band["high_rpm"] <= high + 1e-6
                                         for low, high in ranges))
@@ -479,7 +479,7 @@ class CheckTest(FolderTest):
         """A slow string is steady; one at the resonance of the rod on the bottom of its hole is not. Numbers of the
         table."""
         self.scene = self.write("check.toml", SCENE.replace('speed_high = "240 rpm"', 'speed_high = "300 rpm"'))
-        out, summary = self.answer("speeds", "--check", "2")
+        out, summary = self.results("speeds", "--check", "2")
         rows = summary["speeds_check"]["speeds"]
         self.assertEqual([row["time"] for row in rows][0], "steady", out)
         self.assertIn("torque oscillates", rows[1]["time"], out)
@@ -494,12 +494,12 @@ class CheckTest(FolderTest):
         self.assertAlmostEqual(rows[0]["torque_N_m"] / (0.3 * weight / math.sqrt(1.09) * 0.0365), 1.0, 0)
 
     def test_what_cannot_be_checked(self):
-        self.assertIn("outside 2 .. 100", self.ask("speeds", self.scene, "--check", "1", status=2))
+        self.assertIn("outside 2 .. 100", self.call("speeds", self.scene, "--check", "1", status=2))
         load = self.write("load.toml",
                           SCENE.replace('component = "rx"',
                                         'component = "rx"\nkind = "load"').replace("100 rpm", "0 N m").replace(
             'eccentricity = "0.5 mm"', ""))
-        out = self.ask("speeds", load, "--check")
+        out = self.call("speeds", load, "--check")
         self.assertIn("check in time: not assessed, because no drive turns the string", out)
 
     def test_a_failed_run_is_no_all_clear(self):
@@ -511,9 +511,9 @@ class CheckTest(FolderTest):
     def test_a_string_that_stays_on_its_axis(self):
         """Axial-torsional pipes have no lateral acceleration, which is no assessment of it."""
         text = SCENE.replace('eccentricity = "0.5 mm"', 'kind = "axial-torsional"')
-        self.assertIn("lateral acceleration is not assessed", self.ask("speeds", self.write("axial.toml", text),
-                                                                       "--check", "2"))
-        self.assertNotIn("lateral acceleration is not assessed", self.ask("speeds", self.scene, "--check", "2"))
+        self.assertIn("lateral acceleration is not assessed", self.call("speeds", self.write("axial.toml", text),
+                                                                        "--check", "2"))
+        self.assertNotIn("lateral acceleration is not assessed", self.call("speeds", self.scene, "--check", "2"))
 
     def test_own_rotation_is_among_the_speeds(self):
         scene = scenes.load(self.scene)
@@ -533,7 +533,7 @@ class FrictionTableTest(FolderTest):
 
     def test_written_and_read(self):
         first = scenes.load(self.scene)
-        self.ask("save", self.scene, self.folder / "copy.toml")
+        self.call("save", self.scene, self.folder / "copy.toml")
         self.assertTrue(first.same_as(scenes.load(self.folder / "copy.toml")))
         wall = mbd.WallDef(**first.model.calls[0][1][0])
         self.assertEqual((wall.friction_table_count, wall.mu_static, wall.mu_dynamic), (3, 0.5, 0.25))
@@ -571,7 +571,7 @@ class FrictionTableTest(FolderTest):
                  "mu_static")):
             text = self.SCENE.replace(old, new, 1)
             self.assertNotEqual(text, self.SCENE, new)
-            self.assertIn(wanted, self.ask("check", self.write("wrong.toml", text), status=2))
+            self.assertIn(wanted, self.call("check", self.write("wrong.toml", text), status=2))
 
     def test_sections_scale_it(self):
         """A section with half the dynamic coefficient has half the static one too."""
@@ -579,7 +579,7 @@ class FrictionTableTest(FolderTest):
                                   '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[time_function]]', 1)
         point = scenes.load(self.write("section.toml", text)).model.hole(5.0)
         self.assertAlmostEqual(point.mu_static, 0.25)
-        out = self.ask("torque-drag", self.folder / "section.toml", "-o", self.folder / "td")
+        out = self.call("torque-drag", self.folder / "section.toml", "-o", self.folder / "td")
         self.assertIn("broomstick: 0.5, 1 and 1.5 times", out)
 
 

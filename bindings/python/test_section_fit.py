@@ -51,8 +51,8 @@ class SectionFitTest(FolderTest):
                 for depth, values in zip(depths, loads(depths))]
         log = self.write("log.csv", "\n".join(["depth [m],pick_up [kN],slack_off [kN],torque [kN m]",
                                                *(",".join(map(repr, row)) for row in rows)]))
-        said = self.ask("torque-drag", self.write("well.toml", text), "--measured", log, "--output",
-                        self.folder / "out")
+        said = self.call("torque-drag", self.write("well.toml", text), "--measured", log, "--output",
+                         self.folder / "out")
         return (said, json.loads((self.folder / "out" / "summary.json").read_text()).get("measured_by_section",
                                                                                          {}).get("string", {}))
 

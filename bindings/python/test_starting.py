@@ -47,7 +47,7 @@ class StartingTest(unittest.TestCase):
         self.assertIn('diameter = "8 1/2 in"', said("new", "well", "--hole", '8 1/2"')[1])
 
     def test_variability_of_new_scenes(self):
-        """The lines about scatter load where their # are taken away, and a study answers."""
+        """The lines about scatter load where their # are taken away, and a study has a result."""
         needs("numpy", "scipy")
         from drillmbd.probability.sample import DONE, SceneSample
         for kind in new.OPTIONS:

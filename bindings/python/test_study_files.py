@@ -109,15 +109,15 @@ class DamageTest(FolderTest):
     def test_command_says_how(self):
         path = self.write("rig.toml", SCENE)
         words = (path, "-o", self.folder / "out", "--samples", 4, "--engine", "serial")
-        self.ask("probability", *words)
+        self.call("probability", *words)
         file = self.folder / "out" / "study.h5"
         data = file.read_bytes()
         at = data.rindex(b"drillmbd study", 0, 100) if data.rfind(b"drillmbd study", 0, 100) >= 0 else 0
         file.write_bytes(data[:at] + b"X" + data[at + 1:])
-        out = self.ask("probability", *words, status=2)
+        out = self.call("probability", *words, status=2)
         self.assertIn("is damaged", out)
         self.assertIn("4 sound rows can be recovered", out)
-        self.assertIn("4 samples are in", self.ask("probability", *words, "--salvage"))
+        self.assertIn("4 samples are in", self.call("probability", *words, "--salvage"))
 
 
 class LockTest(FolderTest):
@@ -249,15 +249,15 @@ class InputTest(FolderTest):
         for name in (self.folder / "pipe.toml", "/dev/null", "/dev/zero"):
             started = time.monotonic()
             self.assertIn(f"{name}:1: the file: is a device or a named pipe, must be a regular file",
-                          self.ask("check", name, status=2))
+                          self.call("check", name, status=2))
             self.assertLess(time.monotonic() - started, 5.0)
 
     def test_failure_after_the_run(self):
         late = SCENE.replace('limit = "111 N m"', 'limit = "111 N m"\nfrom = "31 ms"')
         line = late[:late.index("31 ms")].count("\n") + 1
         self.assertIn(f"rig.toml:{line}: failure[0].from = \"31 ms\": must be <= 0.03 s, the end of the run",
-                      self.ask("check", self.write("rig.toml", late), status=2))
-        self.ask("check", self.write("rig.toml", late.replace("31 ms", "30 ms")))
+                      self.call("check", self.write("rig.toml", late), status=2))
+        self.call("check", self.write("rig.toml", late.replace("31 ms", "30 ms")))
         static = SCENE.replace("seed = 7", 'seed = 7\nquestion = "static"').replace('limit = "111 N m"',
                                                                                     'limit = "111 N m"\nfrom = "1 ms"')
         with self.assertRaisesRegex(scene.SceneError, "must be <= 0 s, the time of a static state"):
@@ -271,8 +271,8 @@ class InputTest(FolderTest):
         for cell in ("torque", "-5 mm", "+1.5e-3 kN m", "-3", 7, -1.5, "", None):
             self.assertEqual(no_formula(cell), cell)
         named = SCENE.replace('name = "friction"', 'name = "=HYPERLINK(1)"')
-        self.ask("probability", self.write("rig.toml", named), "-o", self.folder / "out", "--samples", 2, "--engine",
-                 "serial")
+        self.call("probability", self.write("rig.toml", named), "-o", self.folder / "out", "--samples", 2, "--engine",
+                  "serial")
         head = (self.folder / "out" / "samples.csv").read_text(encoding="utf-8").splitlines()[0]
         self.assertIn(",'=HYPERLINK(1),", head)
 

@@ -178,18 +178,18 @@ class OutputTest(FolderTest):
                                      [line.get_xydata() for line in one.get_lines()]) for one in figure.axes]))
         return figure
 
-    def answer(self, command, system, *more):
+    def results(self, command, system, *more):
         self.figures = []
         folder = self.folder / f"{command}-{system}"
         words = [str(self.folder / one) if one == "log.csv" else one for one in COMMANDS[command]]
-        out = self.ask(command, self.scene, "--output", folder, *words, *more)
+        out = self.call(command, self.scene, "--output", folder, *words, *more)
         return out, folder, json.loads((folder / "summary.json").read_text(encoding="utf-8")), self.figures
 
     def compare(self, command):
-        out, folder, summary, figures = self.answer(command, "si")
+        out, folder, summary, figures = self.results(command, "si")
         self.assertEqual(summary["units"], "si")
         for system in ("field", "mine"):
-            other, place, found, drawn = self.answer(command, system, "--units", system)
+            other, place, found, drawn = self.results(command, system, "--units", system)
             self.assertEqual((found["units"], found["units_of_numbers"], found["files"]),
                              (system, "si", summary["files"]))
             self._same_numbers_in_summary(summary, found)
@@ -329,30 +329,30 @@ class OutputTest(FolderTest):
 
     def test_key_of_the_scene(self):
         self.scene = self.write("rig.toml", SCENE + '[results]\nunits = "field"\n')
-        self.assertRegex(self.ask("static", self.scene), r"axial force .* lbf, torque up to .* ft-lbf")
-        self.assertRegex(self.ask("static", self.scene, "--units", "mine"), r"axial force .* kN, torque up to .* N m")
+        self.assertRegex(self.call("static", self.scene), r"axial force .* lbf, torque up to .* ft-lbf")
+        self.assertRegex(self.call("static", self.scene, "--units", "mine"), r"axial force .* kN, torque up to .* N m")
         self.assertIn('units = "field"', scene.saves(scene.load(self.scene)))
-        self.assertIn("one of si, field, mine", self.ask("keys", "results"))
+        self.assertIn("one of si, field, mine", self.call("keys", "results"))
 
     def test_wrong_names(self):
-        error = self.ask("static", self.scene, "--units", "metric", status=2)
+        error = self.call("static", self.scene, "--units", "metric", status=2)
         self.assertRegex(error, "invalid choice: 'metric' .*si.*field.*mine")
         self.scene = self.write("rig.toml", SCENE + '[results]\nunits = "fields"\n')
         self.assertIn('results.units = "fields": must be one of the words si, field, mine',
-                      self.ask("static", self.scene, status=2))
+                      self.call("static", self.scene, status=2))
         self.assertEqual(unit_systems.NAMES, ("si", "field", "mine"))
 
     def test_refused_depths_have_the_units_of_the_output(self):
         for system, text in (("field",
                               "--depths: 100 ft must be above 0 ft, where the string begins, and at most 29.5276 ft"),
                              ("si", "--depths: 30.48 m must be above 0 m, where the string begins, and at most 9 m")):
-            self.assertIn(text, self.ask("torque-drag", self.scene, "--depths", "100 ft", "--units", system, "-q",
-                                         status=2))
+            self.assertIn(text, self.call("torque-drag", self.scene, "--depths", "100 ft", "--units", system, "-q",
+                                          status=2))
 
     def test_sweep_passes_units(self):
         out = self.folder / "sweep"
-        self.ask("sweep", self.scene, "static", "--vary", "hole.mu_dynamic=0.2", "--output", out, "--", "--units",
-                 "field")
+        self.call("sweep", self.scene, "static", "--vary", "hole.mu_dynamic=0.2", "--output", out, "--", "--units",
+                  "field")
         with open(out / "00001" / "static_main.csv", encoding="utf-8") as file:
             self.assertIn("along [ft]", file.readline())
 

@@ -89,7 +89,7 @@ class PageTest(unittest.TestCase):
 
 
 class StudyTest(unittest.TestCase):
-    def test_rows_are_those_of_the_stored_answer(self):
+    def test_rows_are_those_of_the_stored_result(self):
         text = (ROOT / "examples" / "reference_study" / "expected.txt").read_text(encoding="utf-8")
         table, assumptions, counts = study.read(text.rstrip("\n"))
         self.assertEqual([row.number for row in table], list(range(1, len(table) + 1)))

@@ -146,10 +146,10 @@ class FieldTest(Refusals):
         self.assertIn("by name", error.bound)
 
     def test_what_a_function_returns(self):
-        for answer in ("x", None, [0.1], 1j):
+        for returned in ("x", None, [0.1], 1j):
             model = mbd.Model()
             model.add_pipes(2)
-            model.add_drive(time_function=model.add_time_function(lambda time: answer))
+            model.add_drive(time_function=model.add_time_function(lambda time: returned))
             model.compile()
             error = self.refused(model.sim)
             self.assertEqual(error.status, mbd.ERR_CALLBACK)
@@ -161,7 +161,7 @@ class FieldTest(Refusals):
         self.assertIsInstance(self.refused(model.sim).__cause__, TypeError)  # was a RecursionError
 
 
-class QuestionTest(Refusals):
+class AnalysisTest(Refusals):
     def setUp(self):
         self.model, self.string, self.feed = string_in_hole()
         self.sim = self.model.sim()
@@ -226,13 +226,13 @@ class QuestionTest(Refusals):
             modes[3]
         self.tells(("modes", "index", 9.0), modes.shape, 9, place)
         self.tells(("shape at string 0", "pipe", 7.0), modes.shape, 0, mbd.station(self.string, 7))
-        shaken, asked = [mbd.Excitation(place=place, component=mbd.Z)], [(place, "vibration_z")]
-        response = sim.response(shaken, asked, points=3)
+        shaken, requested = [mbd.Excitation(place=place, component=mbd.Z)], [(place, "vibration_z")]
+        response = sim.response(shaken, requested, points=3)
         self.tells(("response", "output", 2.0), response.transfer, 0, 2)
-        self.assertEqual(self.refused(sim.response, shaken[0], asked).field, "excitations")
-        self.assertEqual(self.refused(sim.response, asked, asked).field, "excitations[0]")
-        self.assertEqual(self.refused(sim.response, shaken, asked, frequencies=["5"]).field, "frequencies[0]")
-        self.assertEqual(self.refused(sim.speeds, [mbd.Order()], asked, []).field, "limits")
+        self.assertEqual(self.refused(sim.response, shaken[0], requested).field, "excitations")
+        self.assertEqual(self.refused(sim.response, requested, requested).field, "excitations[0]")
+        self.assertEqual(self.refused(sim.response, shaken, requested, frequencies=["5"]).field, "frequencies[0]")
+        self.assertEqual(self.refused(sim.speeds, [mbd.Order()], requested, []).field, "limits")
 
     def test_torque_drag(self):
         sim = self.sim
@@ -325,7 +325,7 @@ class ClosedTest(Refusals):
         self.closed("model", model.sim, model.info, model.add_wall, lambda: model.find("x"), lambda: "x" in model)
         sim.step(1e-3)  # sims go on
 
-    def test_answers(self):
+    def test_results(self):
         model, string, _ = string_in_hole()
         sim = model.sim()
         sim.static(steady=mbd.STEADY_AT_REST)

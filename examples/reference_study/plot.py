@@ -137,7 +137,7 @@ def lengths(folder):
 
 
 # Quantities of a string, a row each: column, factor, label, colour, marker.
-QUESTIONS = (
+ROWS = (
     ("frequency [Hz]", True, (("axial [Hz]", 1.0, "first along", RED, "s"),
                               ("torsional [Hz]", 1.0, "first around", ORANGE, "D"),
                               ("first on the wall [Hz]", 1.0, "lowest on the wall", GREEN, "^"),
@@ -154,12 +154,12 @@ QUESTIONS = (
 
 
 def parameters(folder):
-    """A column for each parameter, a row for each question; the same scale along a row."""
+    """A column for each parameter, a row for each group of outputs; the same scale along a row."""
     sets = parameter_sets(folder)
-    figure, places = plt.subplots(len(QUESTIONS), len(sets), figsize=(20, 16), sharex="col", sharey="row",
-                                  height_ratios=[1.5] + [1.0] * (len(QUESTIONS) - 1))
+    figure, places = plt.subplots(len(ROWS), len(sets), figsize=(20, 16), sharex="col", sharey="row",
+                                  height_ratios=[1.5] + [1.0] * (len(ROWS) - 1))
     for column, (name, points) in zip(places.T, sets.items()):
-        for axes, (_, _, lines) in zip(column, QUESTIONS):
+        for axes, (_, _, lines) in zip(column, ROWS):
             for key, factor, label, color, marker in lines:
                 axes.plot(points["value"], factor * points[key], marker + "-", color=color, markersize=4.5,
                           linewidth=1.2, label=label)
@@ -169,7 +169,7 @@ def parameters(folder):
             column[0].set_xticks(points["value"])
         column[-1].set_xlabel(name)
         column[0].set_title(name.split(" [")[0], fontweight="bold")
-    for row, (label, logarithmic, _) in zip(places, QUESTIONS):
+    for row, (label, logarithmic, _) in zip(places, ROWS):
         row[0].set_ylabel(label)
         if logarithmic:
             row[0].set_yscale("log")

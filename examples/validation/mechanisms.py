@@ -87,9 +87,9 @@ def bars_reduced(windows, end=10.0):
     their ends. M phi'' = -g sum cos(phi), M = (N + 1)/3 + N, sum of heights (N + 1)/2 + N."""
     from scipy.integrate import solve_ivp
     inertia, height = (windows + 1) / 3.0 + windows, (windows + 1) / 2.0 + windows
-    answer = solve_ivp(lambda _t, s: (s[1], -GRAVITY * height / inertia * math.cos(s[0])), (0.0, end),
-                       (0.5 * math.pi, -1.0), method="DOP853", rtol=1e-12, atol=1e-13)
-    return answer.y[0, -1]
+    solution = solve_ivp(lambda _t, s: (s[1], -GRAVITY * height / inertia * math.cos(s[0])), (0.0, end),
+                         (0.5 * math.pi, -1.0), method="DOP853", rtol=1e-12, atol=1e-13)
+    return solution.y[0, -1]
 
 
 def bars_run(windows, step, end=10.0):

@@ -54,7 +54,7 @@ class Tube:
         self.squares, shapes = eigh(stiffness[1:, 1:], mass[1:, 1:])
         self.pull, self.weight = -shapes.T @ mass[1:].sum(axis=1), np.zeros_like(self.squares)
         self.tip, self.angle, self.acceleration = shapes[-1], speed.integ(), speed.deriv()
-        self.asked, self.exact = 1, self.course()  # the speed of the tip
+        self.output, self.exact = 1, self.course()  # the speed of the tip
         self.scale = np.sqrt(np.mean((self.exact + speed(INSTANTS)) ** 2))
 
     def course(self):
@@ -85,7 +85,7 @@ class Cantilever:
         self.squares, shapes = eigh(stiffness[2:, 2:], mass[2:, 2:])
         self.weight, self.pull = shapes.T @ weight[2:], np.zeros_like(self.squares)
         self.tip, self.angle, self.acceleration = shapes[-2], np.poly1d(0), np.poly1d(0)
-        self.asked, self.scale = 0, 20.0  # the place of the tip, over the length
+        self.output, self.scale = 0, 20.0  # the place of the tip, over the length
         swing = 1 - np.cos(np.sqrt(self.squares)[:, None] * INSTANTS)
         self.exact = self.tip @ ((self.weight / self.squares)[:, None] * swing)
 
@@ -121,7 +121,7 @@ def generalized_alpha(scene, h, radius=0.8):
 
 
 def extrapolated(scene, h):
-    """Two courses side by side, steps of h and h / 2, whose leading errors cancel in the answers."""
+    """Two courses side by side, steps of h and h / 2, whose leading errors cancel in the results."""
     fine = generalized_alpha(scene, h / 2)
     for x, v in generalized_alpha(scene, h):
         next(fine)
@@ -149,7 +149,7 @@ def runge_kutta(scene, h, rows):
 def error(scene, method, h):
     course, every = method(scene, h), round(INSTANTS[0] / h)
     ends = [state for _, state in zip(range(every * len(INSTANTS)), course)][every - 1::every]
-    told = np.array([scene.tip @ state[scene.asked] for state in ends])
+    told = np.array([scene.tip @ state[scene.output] for state in ends])
     return np.sqrt(np.mean(((told - scene.exact) / scene.scale) ** 2))
 
 

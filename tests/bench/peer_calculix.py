@@ -8,8 +8,8 @@ The tube of scenes A to C, 100 m, clamped at one end and free at the other:
   bending   the small force put on at once, 150 s (a period of the first mode) in equal steps, tip deflection at every
             step against the sum over modes; root of the mean square over that of the reference
 
-Scenes C and B are not asked of it: see NOTEBOOK.md. Times: of CalculiX, processor time of the whole
-program from deck to answer, one thread; of the library, from the first call of the description to the answer.
+It does not compute scenes C and B: see NOTEBOOK.md. Times: of CalculiX, processor time of the whole
+program from deck to result, one thread; of the library, from the first call of the description to the result.
 """
 import csv
 import ctypes
@@ -99,7 +99,7 @@ STEPS = {
 }
 
 
-def deck(question, elements, step):
+def deck(case, elements, step):
     """B32R: quadratic beam of reduced integration, the only kind with a pipe section; expanded into a solid."""
     tip = 2 * elements + 1
     lines = ["*NODE,NSET=ALL"]
@@ -109,9 +109,9 @@ def deck(question, elements, step):
     lines += ["*MATERIAL,NAME=STEEL", "*ELASTIC", f"{YOUNG},{POISSON}", "*DENSITY", f"{DENSITY}"]
     lines += ["*BEAM SECTION,ELSET=TUBE,MATERIAL=STEEL,SECTION=PIPE", f"{OUTER / 2},{(OUTER - INNER) / 2}", "0,1,0"]
     lines += ["*BOUNDARY", "1,1,6", "*NSET,NSET=TIP", f"{tip}"]
-    lines += [STEPS[question].format(step=step, period=PERIOD).rstrip()]
-    if question != "A":
-        force = LARGE_FORCE if question == "elastica" else SMALL_FORCE
+    lines += [STEPS[case].format(step=step, period=PERIOD).rstrip()]
+    if case != "A":
+        force = LARGE_FORCE if case == "elastica" else SMALL_FORCE
         lines += ["*CLOAD", f"{tip},3,{force!r}", "*NODE PRINT,NSET=TIP", "U"]
     return "\n".join(lines + ["*END STEP"]) + "\n"
 
@@ -135,17 +135,17 @@ def tips(dat):
     return [(float(t), float(z)) for t, z in found]
 
 
-def ask_calculix(question, elements, step, folder):
-    seconds, dat = run_calculix(deck(question, elements, step), folder)
+def solve_calculix(case, elements, step, folder):
+    seconds, dat = run_calculix(deck(case, elements, step), folder)
     if dat is None:
         return seconds, 0, math.nan
-    if question == "A":
+    if case == "A":
         rows = re.findall(r"^ +\d+ +\S+ +\S+ +(\S+) +\S+$", dat, re.MULTILINE)
         return seconds, 1, frequency_error([float(f) for f in rows])
     history = tips(dat)
-    if question in ("bending", "superposed"):
+    if case in ("bending", "superposed"):
         return seconds, len(history), history_error(history)
-    reference = ELASTICA if question == "elastica" else 0.1
+    reference = ELASTICA if case == "elastica" else 0.1
     return seconds, len(history), abs(history[-1][1] / reference - 1)
 
 
@@ -163,15 +163,15 @@ def cantilever(mbd, elements, force):
     return model, tip
 
 
-def ask_library(mbd, question, elements, step):
+def solve_library(mbd, case, elements, step):
     begin = time.process_time()
     forces = {"A": 0.0, "elastica": LARGE_FORCE}
-    model, tip = cantilever(mbd, elements, forces.get(question, SMALL_FORCE))
+    model, tip = cantilever(mbd, elements, forces.get(case, SMALL_FORCE))
     with model.sim(energy_ledger=0) as sim:
-        if question == "A":
+        if case == "A":
             error = frequency_error([mode.frequency for mode in sim.modes(count=10)])
             return time.process_time() - begin, 1, error
-        if question == "bending":
+        if case == "bending":
             history = []
             for _ in range(round(PERIOD / step)):
                 sim.step(step)
@@ -180,7 +180,7 @@ def ask_library(mbd, question, elements, step):
             return seconds, len(history), history_error(history)
         report = sim.static()
         deflection = sim.pose(tip).position[2]
-    reference = ELASTICA if question == "elastica" else 0.1
+    reference = ELASTICA if case == "elastica" else 0.1
     return time.process_time() - begin, report.iterations, abs(deflection / reference - 1)
 
 
@@ -189,18 +189,18 @@ KINDS = {"A": "frequency_vs_euler_bernoulli", "sag": "tip_vs_PL3_3EI", "elastica
          "bending": "tip_history_vs_modes"}
 
 
-def report(table, unit, code, version, question, elements, setting, answer):
-    seconds, steps, error = answer
+def report(table, unit, code, version, case, elements, setting, result):
+    seconds, steps, error = result
     if math.isnan(error):
-        print(f"scene={question} elements={elements} code={code} setting={setting} failed=after_{seconds:.2f}_s",
+        print(f"scene={case} elements={elements} code={code} setting={setting} failed=after_{seconds:.2f}_s",
               flush=True)
         return
     row = dict.fromkeys(COLUMNS, "")
-    row.update(code=code, version=version, scene=question, elements=elements, setting=setting, steps=steps,
+    row.update(code=code, version=version, scene=case, elements=elements, setting=setting, steps=steps,
                us_per_step=f"{1e6 * seconds / steps:.5g}", U_us=f"{1e6 * unit:.4g}",
-               U_per_step=f"{seconds / steps / unit:.5g}", error=f"{error:.3g}", error_kind=KINDS[question],
+               U_per_step=f"{seconds / steps / unit:.5g}", error=f"{error:.3g}", error_kind=KINDS[case],
                error_2_kind="-")
-    if question == "bending":
+    if case == "bending":
         row.update(end=PERIOD, dt=f"{PERIOD / steps:.4g}", rtf=f"{PERIOD / seconds:.4g}",
                    U_per_simulated_second=f"{seconds / PERIOD / unit:.5g}")
     table.writerow(row)
@@ -226,24 +226,25 @@ def main():
     with open(sys.argv[1], "w", encoding="ascii", newline="") as text, tempfile.TemporaryDirectory() as folder:
         table = csv.DictWriter(text, COLUMNS, lineterminator="\n")
         table.writeheader()
-        def both(question, elements, step, setting):
-            answer = ask_calculix(question, elements, step, pathlib.Path(folder))
-            report(table, unit, "CalculiX", version, question, elements, setting, answer)
-            answer = ask_library(mbd, question, elements, step)
-            report(table, unit, "drillmbd", own, question, elements, setting, answer)
+        def both(case, elements, step, setting):
+            result = solve_calculix(case, elements, step, pathlib.Path(folder))
+            report(table, unit, "CalculiX", version, case, elements, setting, result)
+            result = solve_library(mbd, case, elements, step)
+            report(table, unit, "drillmbd", own, case, elements, setting, result)
 
         for elements in (10, 20, 50, 100):
             both("A", elements, 0.0, "modes")
-        for question in ("sag", "elastica"):
+        for case in ("sag", "elastica"):
             for elements in (10, 20, 50, 100):
-                both(question, elements, 0.0, "static")
+                both(case, elements, 0.0, "static")
         for elements in (20, 100):
             for step in (1.0, 0.25):
                 both("bending", elements, step, f"dt={step:g}")
-        answer = ask_calculix("superposed", 20, 0.25, pathlib.Path(folder))  # *MODAL DYNAMIC; 2.20 does not survive it
-        report(table, unit, "CalculiX", version, "bending", 20, "dt=0.25;modes=20", answer)
+        result = solve_calculix("superposed", 20, 0.25, pathlib.Path(folder))  # *MODAL DYNAMIC; 2.20 aborts
+        report(table, unit, "CalculiX", version, "bending", 20, "dt=0.25;modes=20", result)
         for step in (0.0625, 0.015625):  # what is left of the error is the element's
-            report(table, unit, "drillmbd", own, "bending", 100, f"dt={step:g}", ask_library(mbd, "bending", 100, step))
+            result = solve_library(mbd, "bending", 100, step)
+            report(table, unit, "drillmbd", own, "bending", 100, f"dt={step:g}", result)
 
 
 if __name__ == "__main__":

@@ -18,8 +18,8 @@ BLUE, ORANGE, RED = "#1f5fa8", "#d9730d", "#b3261e"
 COLOURS = {"C": BLUE, "R": ORANGE}
 PANELS = {"C": "C: turning tube, 0.8 s", "T": "T: bending down 20 m, turning, 0.8 s",
           "B": "B: falling onto the wall, 0.1 s", "R": "R: rig cycle, 0.4 s"}
-QUESTIONS = {"C": "tip speed, relative", "T": "tip's place over the length", "B": "tip's place over the clearance",
-             "R": "torque, relative"}
+MEASURES = {"C": "tip speed, relative", "T": "tip's place over the length", "B": "tip's place over the clearance",
+            "R": "torque, relative"}
 # setting: text, colour, line, marker
 SETTINGS = {"default": ("default: fixed steps, radius 0.8, 1 element a pipe", BLUE, "-", "o"),
             "controlled": ("error-controlled", RED, "--", "s"),
@@ -59,7 +59,7 @@ def draw_work(axes, rows, scene):
         axes.axvspan(left, reference, color="#eeeeee", zorder=0)
     axes.set_xlim(left, right)
     axes.set_title(PANELS[scene], loc="left", fontweight="bold")
-    axes.set_xlabel("error: " + QUESTIONS[scene])
+    axes.set_xlabel("error: " + MEASURES[scene])
 
 
 def work_against_error(rows, folder):

@@ -181,7 +181,7 @@ def loaded(data):
 
 
 def loop(data):
-    times, answers = [], []
+    times, results = [], []
     for row in data["D"]:
         times.append([row["variant"], number(row["U_us"])] + [number(row[f"us_{q}"]) for q in
                                                               ("median", "99", "99.9", "largest")] +
@@ -189,7 +189,7 @@ def loop(data):
                       number(row["of_step_99.9"]), number(row["of_step_largest"]),
                       f"{row['most_iterations']} in {row['worst_steps']}, {row['worst_rejected']}",
                       number(row["iterations"]), row["rejected"], row["limited"]])
-        answers.append([row["variant"]] + [number(row[f"residual_{q}"], 2) for q in ("median", "99", "largest")] +
+        results.append([row["variant"]] + [number(row[f"residual_{q}"], 2) for q in ("median", "99", "largest")] +
                        [number(row["error"], 3), number(row["rotation_to_plain"], 2),
                         number(row["end_rotation_to_plain"], 2), number(row["wall_force_to_plain"], 2),
                         number(row["balance"], 2), number(row["wall_us_99.9"]),
@@ -198,7 +198,7 @@ def loop(data):
                      "largest of it", "worst: iterations in steps, rejected", "iterations", "rejected", "limited"],
                     times) + "\n\n" + \
         markdown(["loop", "residual median", "99 %", "largest", "error", "rotation to plain", "at 4 s",
-                  "wall force to plain", "balance", "wall clock 99.9 % us", "late by it"], answers)
+                  "wall force to plain", "balance", "wall clock 99.9 % us", "late by it"], results)
 
 
 def features(data):

@@ -1,4 +1,4 @@
-"""Tests of how answers read in Python: arrays of numpy, mappings, parts by their names, lists where C has pointers."""
+"""Tests of how results read in Python: arrays of numpy, mappings, parts by their names, lists where C has pointers."""
 import copy
 import inspect
 import pickle
@@ -19,7 +19,7 @@ from drillmbd.analysis import Shaped  # noqa: E402
 from drillmbd.sim import SimAt  # noqa: E402
 
 
-class AnswersTest(unittest.TestCase):
+class ResultsTest(unittest.TestCase):
     def setUp(self):
         self.model = mbd.Model()
         self.model.add_wall(survey=[(0.0, 1.5, 0.0), (50.0, 1.55, 0.1), (100.0, 1.6, 0.1)])
@@ -150,20 +150,20 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(list(recorder._asdict()), ["time [s]", "drive_force of drive table [N m]",
                                                     "bit_speed [rad/s]"])
 
-    def test_every_answer_is_a_mapping(self):
-        """_asdict of every class of the package that is an answer: those with a frame and those that hold one of C, but
+    def test_every_result_is_a_mapping(self):
+        """_asdict of every class of the package that is a result: those with a frame and those that hold one of C, but
         for scenes, runs and functions of the state."""
         modules = ("analysis", "state_space", "sensitivity", "state_equation", "frames", "fatigue", "window",
                    "recorder", "profile", "inputs", "sim", "model")
         members = [one for name in modules for one in vars(import_module("drillmbd." + name)).values()]
         classes = {one for one in members if inspect.isclass(one) and one.__module__.startswith("drillmbd") and
                    not issubclass(one, mbd.Record)}
-        answers = {one for one in classes if hasattr(one, "frame") or issubclass(one, Handle) or
+        results = {one for one in classes if hasattr(one, "frame") or issubclass(one, Handle) or
                    one.__name__ == "InputLog"}
-        answers -= {Handle, mbd.Model, mbd.Sim, SimAt, Shaped, mbd.StateEquation}
-        found = self.answers()
-        self.assertEqual({type(one) for one in found} - answers, set())
-        self.assertEqual(answers - {type(one) for one in found}, set(), "an answer without an example here")
+        results -= {Handle, mbd.Model, mbd.Sim, SimAt, Shaped, mbd.StateEquation}
+        found = self.results()
+        self.assertEqual({type(one) for one in found} - results, set())
+        self.assertEqual(results - {type(one) for one in found}, set(), "a result without an example here")
         for one in found:
             fields = one._asdict()
             self.assertIs(type(fields), dict, type(one))
@@ -172,8 +172,8 @@ class AnswersTest(unittest.TestCase):
             if inspect.isclass(one) and issubclass(one, mbd.Record) and one.c_name and "Segment" not in one.__name__:
                 self.assertEqual(list(one()._asdict()), one().keys(), one)
 
-    def answers(self):
-        """An answer of each class, with something in it."""
+    def results(self):
+        """A result of each class, with something in it."""
         sim, middle = self.sim, mbd.station(self.string, 5, 0.5)
         takers = [sim.recorder(["bit_speed"], 4), sim.profile_recorder([mbd.PROFILE_TORQUE], 3, 4),
                   sim.window(["bit_speed"]), sim.fatigue([middle], curve_stress=1e8, slope=3.0),
@@ -190,7 +190,7 @@ class AnswersTest(unittest.TestCase):
                          rest.sim.state_space([excitation], outputs),
                          rest.sim.state_space([], [], form=mbd.STATE_MATRICES), rest.sensitivity(), rest.log()]
 
-    def test_mappings_hold_their_answers(self):
+    def test_mappings_hold_their_results(self):
         rest = self.at_rest()
         modes, buckling = rest.sim.modes(count=3), rest.sim.buckling(follow=0)
         self.assertEqual(modes._asdict()["frequency"], [one.frequency for one in modes])

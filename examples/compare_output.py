@@ -1,15 +1,15 @@
-"""Runs an example and compares what it prints with the stored answer.
+"""Runs an example and compares what it prints with the stored output.
 
-usage: compare_answer.py PROGRAM EXPECTED
+usage: compare_output.py PROGRAM EXPECTED
 
-Both texts are compared word by word. Lines of the stored answer that begin with # are not compared; three of them
+Both texts are compared word by word. Lines of the stored output that begin with # are not compared; three of them
 mean something:
     # arguments: --pipes 5 --time 0.2     what the program is called with
     # tolerance: 1e-6                     relative tolerance of the numbers with a point or exponent from here on
                                           (1e-9 without such a line)
     # again: --threads 1                  the program is called once more with these arguments behind the others, and
                                           has to print the same and leave the same files behind, to the byte
-A word of the stored answer may carry its own tolerance: 0.125~1e-4 is absolute, 0.125~2% relative, and * stands for any
+A word of the stored output may carry its own tolerance: 0.125~1e-4 is absolute, 0.125~2% relative, and * stands for any
 word. Whole numbers and all other words must be the same. The program runs in an empty folder of its own.
 """
 import pathlib
@@ -22,7 +22,7 @@ import tempfile
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
 
 
-def stored_answer(path):
+def stored_output(path):
     arguments, again, lines, tolerance = [], None, [], 1e-9
     with open(path, encoding="utf-8") as text:
         for line in text:
@@ -73,7 +73,7 @@ def differences(once_more, run, files, arguments):
 
 def main():
     program, path = sys.argv[1:3]
-    arguments, again, expected = stored_answer(path)
+    arguments, again, expected = stored_output(path)
     run, files = call(program, arguments)
     found = [line.split() for line in run.stdout.splitlines() if line.strip()]
     if run.returncode != 0:

@@ -1,4 +1,4 @@
-"""Tests of the questions of a study: torque and drag, static states, runs, and auto; against closed forms, against each
+"""Tests of the analyses of a study: torque and drag, static states, runs, and auto; against closed forms, against each
 other, and against the analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
 import csv
 import importlib.util
@@ -445,7 +445,7 @@ class UntilTest(FolderTest):
 
     def test_command(self):
         """Stops at the first look at which the rule is met, and at --samples where it never is."""
-        out = self.ask("probability", self.scene, "-o", self.folder / "out", "--until", "30%", "--engine", "serial")
+        out = self.call("probability", self.scene, "-o", self.folder / "out", "--until", "30%", "--engine", "serial")
         estimate = json.loads((self.folder / "out"
                                / "summary.json").read_text(encoding="utf-8"))["estimates"]["rig-push"]
         self.assertLessEqual(0.5 * (estimate["high"] - estimate["low"]), 0.3 * estimate["probability"])
@@ -456,11 +456,11 @@ class UntilTest(FolderTest):
             looks.append(until.following(looks[-1], until.MOST))
         self.assertEqual((looks[-1], len(looks) > 1), (len(margins), True))
         self.assertFalse(until.rule("30%").met(counted(margins[:looks[-2]], confidence=until.spent(0.95, until.MOST))))
-        out = self.ask("probability", self.scene, "--until", "below 1e-6", "--samples", 300, "--engine", "serial")
+        out = self.call("probability", self.scene, "--until", "below 1e-6", "--samples", 300, "--engine", "serial")
         self.assertIn("after", out)
-        self.assertIn("write a share", self.ask("probability", self.scene, "--until", "soon", status=2))
-        self.assertIn("--until adds samples", self.ask("probability", self.scene, "--until", "30%", "--method", "sobol",
-                                                       status=2))
+        self.assertIn("write a share", self.call("probability", self.scene, "--until", "soon", status=2))
+        self.assertIn("--until adds samples", self.call("probability", self.scene, "--until", "30%", "--method",
+                                                        "sobol", status=2))
 
 
 class MapTest(FolderTest):
@@ -469,7 +469,7 @@ class MapTest(FolderTest):
              "--engine", "serial")
 
     def test_map(self):
-        out = self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
+        out = self.call("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
         summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
         with open(self.folder / "out" / "map.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -491,7 +491,7 @@ class MapTest(FolderTest):
         self.assertIn("cell 6: hole.diameter = 98 mm, failure.limit = 9.7 kN: any failure", out)
         self.assertGreater((self.folder / "out" / "map.png").stat().st_size, 5000)
         before = read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist()
-        self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
+        self.call("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
         # nothing is computed again
         self.assertEqual(read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist(), before)
 
@@ -503,16 +503,16 @@ class MapTest(FolderTest):
         lock = Lock(folder / "map")
         words = ("probability", self.scene, "-o", folder, "--vary", "hole.diameter=94 mm,98 mm", "--samples", 20,
                  "--engine", "serial")
-        said = self.ask(*words, status=2)
+        said = self.call(*words, status=2)
         self.assertIn("another run writes it now; wait for it, or give another --output folder", said)
         self.assertNotIn("cell 1", said)
         self.assertFalse((folder / "00001").exists())
         lock.release()
-        self.assertIn("cell 2", self.ask(*words))
+        self.assertIn("cell 2", self.call(*words))
 
     def test_a_cell_that_cannot_be(self):
-        out = self.ask("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20,
-                       "--engine", "serial", status=1)
+        out = self.call("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20,
+                        "--engine", "serial", status=1)
         self.assertNotIn("Traceback", out)
 
     def test_refused(self):
@@ -521,8 +521,8 @@ class MapTest(FolderTest):
                             (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "give each key once"),
                             (("--vary", "hole.diameter=94 mm", "--method", "subset"),
                              "leave --indices and --method subset out")):
-            self.assertIn(wanted, self.ask("probability", self.scene, *words, status=2))
-        said = self.ask("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
+            self.assertIn(wanted, self.call("probability", self.scene, *words, status=2))
+        said = self.call("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
         self.assertIn("drillmbd probability", said)
         self.assertIn("--vary 'hole.diameter=94 mm'", said)
 
@@ -558,8 +558,8 @@ class AutoTest(FolderTest):
         self.scene = self.write("lost.toml",
                                 self.SCENE + "[sim]\nnewton_tolerance = 1e-14\nmax_iterations = 2\nmax_cuts = 0\n")
         with unittest.mock.patch.object(auto, "LEAST", 4), unittest.mock.patch.object(auto.CommandOutput, "say") as say:
-            self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
-                     "--question", "auto", status=1)
+            self.call("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                      "--question", "auto", status=1)
         out = "\n".join(str(one.args[0]) for one in say.call_args_list)
         self.assertRegex(out, r"any failure: not assessed, because none of [0-9]+ runs has a margin")
         self.assertNotIn("interval", out)
@@ -568,10 +568,10 @@ class AutoTest(FolderTest):
 
     def test_against_plain_runs(self):
         """The same decision for every sample that both computed."""
-        self.ask("probability", self.scene, "-o", self.folder / "plain", "--samples", 40, "--workers", 2)
+        self.call("probability", self.scene, "-o", self.folder / "plain", "--samples", 40, "--workers", 2)
         with unittest.mock.patch.object(auto, "LEAST", 4):
-            out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
-                           "--question", "auto")
+            out = self.call("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                            "--question", "auto")
         plain = {int(row["number"]): row["margin"].tolist() for row in read_rows(self.folder / "plain" / "study.h5")[0]}
         rows = read_rows(self.folder / "auto" / "study.h5")[0]
         self.assertTrue(0 < len(rows) < 40, len(rows))
@@ -583,8 +583,8 @@ class AutoTest(FolderTest):
         self.assertTrue(found["low"] <= known <= found["high"])
         self.assertIn("others with the weight 10", out)
         self.assertEqual(len(read_rows(self.folder / "auto" / "study_torque_drag.h5")[0]), 40)
-        again = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
-                         "--question", "auto")
+        again = self.call("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2,
+                          "--question", "auto")
         self.assertIn(f"{40 - len(rows)} samples computed", again)  # so few are all run
         summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
         self.assertAlmostEqual(summary["estimates"]["any failure"]["probability"], known, 12)
@@ -594,7 +594,7 @@ class AutoTest(FolderTest):
             self.assertEqual([one["value"] for one in summary["demands"][name]["percentiles"].values()],
                              [one["value"] for one in demand["percentiles"].values()])
         self.assertIn("runs by their weights) P5", out)
-        self.assertIn("Monte Carlo study", self.ask(
+        self.assertIn("Monte Carlo study", self.call(
             "probability", self.scene, "--question", "auto", "--until", "30%", status=2))
 
 
