@@ -61,6 +61,11 @@ class OverrideKeysTest(FolderTest):
                 self.assertIn(wanted, said)
                 self.assertEqual(list(self.folder.glob("out/*/")), [])
 
+    def test_unknown_command(self):
+        said = self.call("sweep", self.scene, "statics", "--vary", "hole.mu_dynamic=0.2", status=2)
+        self.assertIn("argument COMMAND: invalid choice: 'statics'", said)
+        self.assertIn("'torque-drag'", said)
+
     def test_each_key_once(self):
         for command in (("sweep", self.scene, "check"), ("probability", self.scene)):
             said = self.call(*command, "--vary", "hole.diameter=94 mm", "--vary", "hole[0].diameter=98 mm", status=2)

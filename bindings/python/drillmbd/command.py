@@ -178,8 +178,10 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="repeats a command for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("repeated_command", choices=["check", "static", "run", "modes", "response", "speeds", "buckle",
-                                                    "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
+    repeated = ["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck",
+                "report", "probability"]
+    sweep.add_argument("repeated_command", metavar="COMMAND", choices=repeated,
+                       help=f"that is repeated: {', '.join(repeated)}")
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key; keys between & change together: A & B=V1,V2 or A & B=V1 "
                        "& W1,V2 & W2")
