@@ -360,6 +360,25 @@ void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const d
     }
 }
 
+/* The gradients change by JV of a unit motion along xi; the twist changes by that of body a in the axes of b, d(to_a
+ * v_a) = -ad(xi) to_a v_a = ad(to_a v_a) xi. */
+void dmb_joint_speeds_tangent(const dmb_relative *relative, const dmb_joint_coordinates *at, const double vb[6],
+                              double G[6][6])
+{
+    static const double near[2] = {0.0, 0.0};
+    double of_a[6];
+    dmb_mat6_vec(relative->to_b, vb, of_a);
+    for (int i = 0; i < 6; i++) of_a[i] = relative->V[i] - of_a[i];
+    for (int k = 0; k < 6; k++) dmb_ad_transpose(of_a, at->J[k], G[k]);
+    for (int s = 0; s < 6; s++) {
+        double unit[6] = {0.0};
+        dmb_joint_coordinates c;
+        unit[s] = 1.0;
+        dmb_joint_coordinates_at(relative->R, relative->p, unit, near, &c);
+        for (int k = 0; k < 6; k++) G[k][s] += dmb_vec6_dot(c.JV[k], relative->V);
+    }
+}
+
 #define DMB_NAME_PX "position x"
 #define DMB_NAME_PY "position y"
 #define DMB_NAME_PZ "position z"

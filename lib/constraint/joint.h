@@ -108,6 +108,10 @@ void dmb_joint_coordinates_at(const double R[9], const double p[3], const double
                               dmb_joint_coordinates *c);
 /* W: derivative of sum_k f_k J_k^T along xi, k = 0 .. 5. */
 void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const double f[6], double W[36]);
+/* G, shape (6, 6): derivative of the speeds J_k V along xi is G xi, at constant body-frame velocities of both bodies
+ * (eq:joints.speed-tangent). at: the coordinates there; vb: velocity of body b. */
+void dmb_joint_speeds_tangent(const dmb_relative *relative, const dmb_joint_coordinates *at, const double vb[6],
+                              double G[6][6]);
 
 /* Names of joints and their equations, for reports. */
 

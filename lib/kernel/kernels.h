@@ -97,6 +97,7 @@ typedef struct dmb_axial_torsional_node_args {
     int32_t *sticks;
     double *residual, *scale; /* added to, shape (count, 2) */
     double *inertia;          /* blocks, added to, shape (count, 4) */
+    double *stiffness;        /* likewise; only its column by the depth, in a curved hole */
     double *by_tension;       /* written: dF/dT of both rows, shape (count, 2); NULL: not wanted */
     double potential, damping_power, friction_power; /* added to: [W] */
 } dmb_axial_torsional_node_args;

@@ -21,6 +21,7 @@ typedef struct wall_node_group {
     dmb_real depth;                    /* [m] measured */
     dmb_real tangent[3], curvature[3]; /* [-, 1/m] of the hole, in a curved one */
     dmb_real v[2], residual[2], scale[2];
+    dmb_real by_depth[2]; /* [N/m, N] derivative of the residual by the depth, in a curved hole */
 } wall_node_group;
 
 static inline int is_curved(const dmb_axial_torsional_node_args *args)
@@ -109,7 +110,8 @@ static inline void push(wall_node_group *g, int row, dmb_real force)
     g->scale[row] = g->scale[row] + dmb_real_abs(force);
 }
 
-/* A node advances along the hole's axis, in a straight hole or none along the x axis of its initial pose. */
+/* A node advances along the hole's axis, in a straight hole or none along the x axis of its initial pose. In a bend the
+ * component of the weight along the axis changes with the depth by w . kappa n (eq:motion.weight-along). */
 static inline void weigh_along(dmb_axial_torsional_node_args *args, wall_node_group *g)
 {
     dmb_real q[4], R[9], along[3], gravity[3];
@@ -124,6 +126,7 @@ static inline void weigh_along(dmb_axial_torsional_node_args *args, wall_node_gr
     const dmb_real weight = args->load_factor * load_line(args->weight_mass, &g->node);
     const dmb_real force = weight * dmb_vec3_dot(along, gravity);
     push(g, 0, force);
+    if (is_curved(args)) g->by_depth[0] = g->by_depth[0] - weight * dmb_vec3_dot(g->curvature, gravity);
     if (args->dynamic) add_each(force * g->v[0], &g->node, &args->potential);
 }
 
@@ -142,9 +145,9 @@ static inline void damp_along(dmb_axial_torsional_node_args *args, wall_node_gro
 
 _Static_assert(offsetof(dmb_axial_torsional_site, length) == sizeof(double), "radius, length");
 
-/* Of the contact points: side force [N] and its derivative by tension [-]. */
+/* Of the contact points: side force [N] and its derivatives by tension [-] and depth [N/m]. */
 typedef struct side_force {
-    dmb_real radius, length, N, by_tension;
+    dmb_real radius, length, N, by_tension, by_depth;
 } side_force;
 
 /* Radius and length are the first two numbers of a contact point. */
@@ -158,6 +161,8 @@ static inline void load_contact_points(const dmb_axial_torsional_node_args *args
     side->length = head[1];
 }
 
+/* Along an arc the curvature vector changes along the axis alone, where the side force has no component: the change
+ * with depth is that of the weight across the axis, dN/ds = -(w . t) (kappa n . u/N). */
 static inline void find_side_force(const dmb_axial_torsional_node_args *args, wall_node_group *g, side_force *side)
 {
     const int curved = is_curved(args);
@@ -168,14 +173,16 @@ static inline void find_side_force(const dmb_axial_torsional_node_args *args, wa
         u[i] = weight * args->gravity[i];
         t[i] = curved ? g->tangent[i] : dmb_real_of(args->hole->direction[i]);
     }
-    dmb_vec3_axpy(-dmb_vec3_dot(u, t), t, u);
+    const dmb_real along = dmb_vec3_dot(u, t);
+    dmb_vec3_axpy(-along, t, u);
     if (curved) dmb_vec3_axpy(load_line(args->tension, &g->node) * side->length, g->curvature, u);
     side->N = dmb_real_sqrt(dmb_vec3_dot(u, u));
-    side->by_tension = zero;
+    side->by_tension = side->by_depth = zero;
     if (!curved) return;
     const dmb_mask presses = dmb_mask_less(zero, side->N);
     dmb_vec3_scale(dmb_real_select(presses, one / dmb_real_select(presses, side->N, one), zero), u, u);
     side->by_tension = side->length * dmb_vec3_dot(u, g->curvature);
+    side->by_depth = -along * dmb_vec3_dot(u, g->curvature);
 }
 
 /* The friction law with the coefficients of each place. */
@@ -233,11 +240,13 @@ DMB_LANES_CALL void called_friction(const dmb_axial_torsional_node_args *args, c
 }
 
 /* C -= factor dF/dv, by the speeds along the hole and of rotation; stores dF/dT for the tangent of the elements. */
-static inline void add_friction_tangent(const dmb_axial_torsional_node_args *args, const wall_node_group *g,
+static inline void add_friction_tangent(const dmb_axial_torsional_node_args *args, wall_node_group *g,
                                         const side_force *side, const wall_friction *friction, dmb_real C[4])
 {
     const double s = args->velocity_factor;
     const dmb_real r = side->radius;
+    g->by_depth[0] = g->by_depth[0] - friction->dN[0] * side->by_depth;
+    g->by_depth[1] = g->by_depth[1] - r * friction->dN[1] * side->by_depth;
     const dmb_real by_tension[2] = {friction->dN[0] * side->by_tension, r * friction->dN[1] * side->by_tension};
     if (args->by_tension != NULL) store(by_tension, 2, &g->node, args->by_tension);
     if (!args->dynamic) return;
@@ -273,6 +282,15 @@ static inline void add_node_friction(dmb_axial_torsional_node_args *args, wall_n
     if (args->tangent) add_friction_tangent(args, g, &side, &friction, C);
 }
 
+static inline void add_by_depth(const dmb_axial_torsional_node_args *args, const wall_node_group *g)
+{
+    dmb_real K[4];
+    load(args->stiffness, 4, 4, &g->node, 0, K);
+    K[0] = K[0] + g->by_depth[0];
+    K[2] = K[2] + g->by_depth[1];
+    store(K, 4, &g->node, args->stiffness);
+}
+
 static void axial_torsional_nodes(dmb_axial_torsional_node_args *args)
 {
     const dmb_real zero = dmb_real_of(0.0);
@@ -281,6 +299,7 @@ static void axial_torsional_nodes(dmb_axial_torsional_node_args *args)
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         dmb_real C[4] = {zero, zero, zero, zero};
         g.node = group_at(first, args->count);
+        g.by_depth[0] = g.by_depth[1] = zero;
         place_nodes(args, &g);
         if (args->tangent) load(args->inertia, 4, 4, &g.node, 0, C);
         if (args->weighs) weigh_along(args, &g);
@@ -289,6 +308,7 @@ static void axial_torsional_nodes(dmb_axial_torsional_node_args *args)
         store(g.residual, 2, &g.node, args->residual);
         store(g.scale, 2, &g.node, args->scale);
         if (args->tangent) store(C, 4, &g.node, args->inertia);
+        if (args->tangent && is_curved(args)) add_by_depth(args, &g);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "model/describe.h"
@@ -185,8 +186,9 @@ static int32_t check_clock(const probe *p)
     memcpy(&clock, p->from, sizeof clock);
     if (status < 0) return status;
     if (!(clock.time >= 0.0)) return refuse(p, 0, clock.time, ">= 0");
-    if (!(clock.step >= 0.0)) return refuse(p, 1, clock.step, ">= 0");
-    if (!(clock.next_step >= 0.0)) return refuse(p, 2, clock.next_step, ">= 0");
+    if (!(clock.step >= 0.0)) return refuse(p, offsetof(dmb_clock, step) / sizeof(double), clock.step, ">= 0");
+    if (!(clock.next_step >= 0.0))
+        return refuse(p, offsetof(dmb_clock, next_step) / sizeof(double), clock.next_step, ">= 0");
     return DMB_OK;
 }
 

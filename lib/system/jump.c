@@ -263,7 +263,8 @@ static double potential(const dmb_sim *sim)
 {
     return dmb_strain_energy(sim->scene, &sim->now) + dmb_gravity_energy(sim->scene, &sim->now) +
            dmb_contact_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-           dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
+           dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now) +
+           dmb_stuck_energy(sim, &sim->now);
 }
 
 /* The energy lost counts as impact: kinetic energy and that of springs which no longer act; the works of inertia and

@@ -200,6 +200,30 @@ static void header_is_checked(void **state)
     close_subject(&s);
 }
 
+/* The refused number of a clock is named by its place in the field. */
+static void numbers_of_the_clock_are_named(void **state)
+{
+    (void)state;
+    static const size_t places[] = {offsetof(dmb_clock, time), offsetof(dmb_clock, step),
+                                    offsetof(dmb_clock, next_step), offsetof(dmb_clock, power)};
+    static const double values[] = {-1.0, -1.0, -1.0, INFINITY};
+    dmb_field fields[DMB_FIELD_MAX];
+    subject s = open_subject(SAVED_STRING);
+    const size_t count = dmb_sim_fields(s.sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
+    size_t at = HEADER, i = 0;
+    for (; i < count && fields[i].check != DMB_CHECK_CLOCK; i++) at += fields[i].bytes;
+    assert_true(i < count);
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        char wanted[32];
+        (void)snprintf(wanted, sizeof wanted, "number %zu = ", places[k] / sizeof(double));
+        memcpy(s.forged, s.sound, s.size);
+        memcpy(s.forged + at + places[k], &values[k], sizeof values[k]);
+        assert_int_equal(try_it(&s, fields + i), 0);
+        if (strstr(dmb_sim_message(s.sim), wanted) == NULL) fail_msg("%s: message: %s", wanted, dmb_sim_message(s.sim));
+    }
+    close_subject(&s);
+}
+
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void forge_scene(int which)
@@ -288,6 +312,7 @@ int main(void)
         cmocka_unit_test(each_field_is_in_one_of_the_scenes),
         cmocka_unit_test(own_snapshots_are_taken),
         cmocka_unit_test(header_is_checked),
+        cmocka_unit_test(numbers_of_the_clock_are_named),
         cmocka_unit_test(string_and_all_it_meets),
         cmocka_unit_test(joints),
         cmocka_unit_test(joints_of_sparse_clusters),

@@ -230,6 +230,42 @@ static void it_lets_go_at_the_overpull(void **state)
     check_close("time of the release by an event [s]", told.release, t, 1e-7);
 }
 
+/* A joint that closes moves the stuck body by its gap, under tension: the energy that the anchor takes up is booked
+ * with the impact. */
+static void a_joint_closes_beside_it(void **state)
+{
+    const double pull = 1e5, stiffness = 1e8, gap = 5e-7;
+    (void)state;
+    for (int side = -1; side <= 1; side += 2) {
+        dmb_sim_options options = sharp_options(1.0, 1e-12);
+        dmb_body_def body = dmb_body_def_default();
+        dmb_stuck_def def = dmb_stuck_def_default();
+        dmb_load_def load = dmb_load_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_id closing;
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        joint.place_b = def.place = load.place = dmb_station(add_body(&s, &body), 0, 0.0);
+        def.stiffness[0] = stiffness;
+        must_model(&s, dmb_model_add_stuck(s.model, &def, NULL));
+        load.force[0] = pull;
+        must_model(&s, dmb_model_add_load(s.model, &load, NULL));
+        joint.state = DMB_JOINT_OPEN;
+        joint.origin_a[0] = pull / stiffness + side * gap;
+        closing = add_joint(&s, &joint);
+        (void)mechanism_start(&s, &options);
+        (void)find_equilibrium(&s, NULL);
+        take_steps(&s, 1e-4, 2);
+        const dmb_energy before = energy_of(&s);
+        must(&s, dmb_sim_set_joint(s.sim, closing, DMB_JOINT_ACTIVE));
+        const dmb_energy after = energy_of(&s);
+        check_close("energy booked with the move of a stuck body [J]", after.impact - before.impact, -side * pull * gap,
+                    1e-3 * pull * gap);
+        check_below("energy balance of the move [J]", fabs(after.balance - before.balance), 1e-6 * pull * gap);
+        rig_close(&s);
+    }
+}
+
 /* Held back to the rig by a support, pulled to F at the far end's anchor and set free by the input: until the wave is
  * back, the far end moves at F/(A sqrt(E rho)). */
 static void a_wave_runs_up(void **state)
@@ -476,6 +512,7 @@ int main(void)
         cmocka_unit_test(a_stuck_string_is_pulled_and_twisted),
         cmocka_unit_test(statics_beyond_the_overpull_are_refused),
         cmocka_unit_test(it_lets_go_at_the_overpull),
+        cmocka_unit_test(a_joint_closes_beside_it),
         cmocka_unit_test(a_wave_runs_up),
         cmocka_unit_test(snapshots_and_logs_replay),
         cmocka_unit_test(a_rod_more_leaves_it_stuck),

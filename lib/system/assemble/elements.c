@@ -310,6 +310,14 @@ static void add_projected_force(dmb_sim *sim, uint32_t node, const mixed_side *s
         }
 }
 
+/* Tangent of J^T f by the change of J: along an arc J is constant in the axes of the node; their rotation about the
+ * axis turns its bend c back, dc = -e_x x c. */
+static void add_turning_bend(dmb_sim *sim, uint32_t node, const mixed_side *side, const double f[6])
+{
+    if (side->rows == DMB_NODE_SIX_DOF) return;
+    dmb_stiffness_of(sim, node)[1] += side->J[2 * 5] * f[4] - side->J[2 * 4] * f[5];
+}
+
 static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A, const mixed_side *B,
                         dmb_beam_input *in)
 {
@@ -327,8 +335,7 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
 
 /* Mixed element (one six-DOF and one axial-torsional node): a beam between two poses; its forces and tangents are
  * projected to the axial-torsional side as J^T f and J^T K J, J its two columns. J (6, 2) maps the speeds along and
- * about the hole's axis to the body-frame velocity of the node (eq:kinematics.path-velocity). The change of J along the
- * axis is not in the tangent. */
+ * about the hole's axis to the body-frame velocity of the node (eq:kinematics.path-velocity). */
 DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;
@@ -372,6 +379,8 @@ DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t
     if (!evaluation->tangent) return DMB_OK;
     add_projected(out.K.aa, &A, &A, dmb_stiffness_of(sim, a));
     add_projected(out.K.bb, &B, &B, dmb_stiffness_of(sim, b));
+    add_turning_bend(sim, a, &A, out.fa);
+    add_turning_bend(sim, b, &B, out.fb);
     add_projected(out.K.ab, &A, &B, sim->stiffness_upper + link);
     add_projected(out.K.ba, &B, &A, sim->stiffness_lower + link);
     if (!evaluation->dynamic) return DMB_OK;

@@ -17,6 +17,7 @@
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "math/vec3.h"
+#include "sim/node.h"
 #include "system/assemble/bounces.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
@@ -219,8 +220,7 @@ static void apply(dmb_evaluation *evaluation, const dmb_scene_joint *joint, uint
     if (joint->a.node != DMB_NONE) dmb_apply_wrench(evaluation->sim, joint->a.node, wa);
 }
 
-/* -d(J^T f)/dq: W of the gradients and J^T f' J. At constant rates: the change of the speeds with the pose is not in
- * the tangent. */
+/* -d(J^T f)/dq: W of the gradients and J^T f' J, at constant speeds. */
 static void add_position_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
                                  const coordinate_forces *f, double *K)
 {
@@ -232,6 +232,29 @@ static void add_position_tangent(const dmb_scene *scene, const dmb_constraint *c
         dmb_mat6_add_outer(-f->by_position[i], f->c.J[i], f->c.J[i], W);
     }
     dmb_add_joint_tangent(scene, constraint, j, &f->relative, w, W, K);
+}
+
+/* -J^T df/d(speed) d(speed)/dq: the speeds of coordinates change with the pose at constant velocities of the bodies,
+ * for instance of a damper across a rotating body that tilts (eq:joints.speed-tangent). */
+static void add_speed_by_position(const dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
+                                  const coordinate_forces *f, double *K)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const uint32_t n = constraint->columns;
+    double vb[6], G[6][6];
+    int acts = 0;
+    for (int i = 0; i < 6; i++) acts |= f->by_speed[i] != 0.0;
+    if (!evaluation->dynamic || !acts) return;
+    dmb_node_vector(sim->scene, &sim->trial, sim->scene->joints[j].b.node, sim->trial.velocity, vb);
+    dmb_joint_speeds_tangent(&f->relative, &f->c, vb, G);
+    for (int i = 0; i < 6; i++) {
+        double row[DMB_CONSTRAINT_COLUMNS] = {0.0}, change[DMB_CONSTRAINT_COLUMNS] = {0.0};
+        if (f->by_speed[i] == 0.0) continue;
+        dmb_add_joint_row(sim->scene, constraint, j, &f->relative, 1.0, f->c.J[i], row);
+        dmb_add_joint_row(sim->scene, constraint, j, &f->relative, 1.0, G[i], change);
+        for (uint32_t r = 0; r < n; r++)
+            for (uint32_t s = 0; s < n; s++) K[(size_t)r * n + s] -= f->by_speed[i] * row[r] * change[s];
+    }
 }
 
 /* -d(mean gradient^T f)/dq: half of the gradient is constant in nodes that turn, J0; J0 = J1 in others. */
@@ -302,6 +325,7 @@ static void add_joint_tangent(dmb_evaluation *evaluation, uint32_t j, const coor
     const dmb_constraint *constraint = scene->constraints + scene->joints[j].constraint;
     double *K = evaluation->sim->constraint_tangent + constraint->tangent;
     add_position_tangent(scene, constraint, j, f, K);
+    add_speed_by_position(evaluation, constraint, j, f, K);
     if (f->has_mean) add_mean_tangent(evaluation, constraint, j, f, K);
     to_parameters(evaluation, constraint, K);
     if (evaluation->dynamic) add_speed_tangent(evaluation, constraint, j, f, K);

@@ -279,7 +279,21 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
     }
 }
 
-/* A load in hole axes also turns with the place of its node along the hole; that change is not in the tangent. */
+/* An axial-torsional node in a bend advances along a tangent that turns by the curvature: the components of a load in
+ * world axes along and about it change with the depth (eq:motion.weight-along). Those in hole axes do not. */
+static void add_axial_torsional_load_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    double point[3], bend[3], *K = dmb_stiffness_of(sim, load->node);
+    if (load->frame != DMB_FRAME_WORLD || !scene->has_hole || dmb_hole_is_straight(&scene->hole)) return;
+    dmb_hole_frame(&scene->hole, dmb_axial_torsional_depth(scene, &sim->trial, load->node), point, NULL, bend);
+    K[0] -= factor * dmb_vec3_dot(load->force, bend);
+    K[2] -= factor * dmb_vec3_dot(load->moment, bend);
+}
+
+/* A load in hole axes on a six-DOF node also turns with the place of its node along the hole; that change is not in the
+ * tangent. */
 static void assemble_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
 {
     dmb_sim *sim = evaluation->sim;
@@ -298,6 +312,8 @@ static void assemble_load(dmb_evaluation *evaluation, const dmb_scene_load *load
         dmb_beam_block_to_nodes(load->arm, 0.0, K);
         dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, load->node));
     }
+    if (evaluation->tangent && sim->scene->layout.size[load->node] == DMB_NODE_AXIAL_TORSIONAL)
+        add_axial_torsional_load_tangent(evaluation, load, evaluation->load_factor * factor);
     dmb_arm_wrench(load->arm, w);
     dmb_apply_wrench(sim, load->node, w);
     if (!evaluation->dynamic) return;

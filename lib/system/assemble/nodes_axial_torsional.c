@@ -11,6 +11,8 @@
 
 #include "element/beam.h"
 #include "kernel/kernels.h"
+#include "math/mat6.h"
+#include "math/se3.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
@@ -78,27 +80,68 @@ static void find_tensions(const dmb_sim *sim, uint32_t first, uint32_t count, do
     }
 }
 
-/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. Neighbours on
- * six-DOF nodes are left out: their tension depends on the pose of the neighbour. */
-static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[2])
+/* [N/m, N] Derivative of the tension of an element by the rows of its two nodes: stretch between axial-torsional nodes;
+ * the strain map of the beam, its axial-torsional side projected as its forces are, of a mixed one. In steps by pose
+ * parameters. */
+static void tension_by_rows(const dmb_evaluation *evaluation, uint32_t element, double by[2][6])
 {
+    const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
+    const dmb_element_type *type = scene->types + scene->element_type[element];
+    const uint32_t a = scene->element_node[element];
+    const double *d = sim->element_strain + 6 * (size_t)element;
+    double map[72];
+    memset(by, 0, 12 * sizeof(double));
+    by[0][0] = -type->stiffness[0];
+    by[1][0] = type->stiffness[0];
+    if (is_stretched(scene, a)) return;
+    const double x[3] = {1.0, type->coupling[0] * (d[1] - type->rest[1]), type->coupling[1] * (d[2] - type->rest[2])};
+    dmb_section_strain_map(type, d, map);
+    for (uint32_t side = 0; side < 2; side++) {
+        double row[6], columns[12], R[9], unused[3];
+        dmb_se3_tangent T;
+        for (uint32_t k = 0; k < 6; k++) {
+            row[k] = 0.0;
+            for (uint32_t i = 0; i < 3; i++) row[k] += type->stiffness[0] * x[i] * map[12 * i + 6 * side + k];
+        }
+        if (scene->layout.size[a + side] == DMB_NODE_SIX_DOF) {
+            dmb_se3_tangent_at(sim->increment + scene->layout.row[a + side], NULL, &T);
+            if (evaluation->dynamic) dmb_se3_tangent_apply_transpose(&T, row, row);
+            dmb_vec6_copy(row, by[side]);
+            continue;
+        }
+        dmb_node_pose(scene, &sim->trial, a + side, R, unused);
+        dmb_axial_torsional_columns(scene, &sim->trial, a + side, R, columns);
+        by[side][0] = dmb_vec6_dot(row, columns);
+        by[side][1] = dmb_vec6_dot(row, columns + 6);
+    }
+}
+
+/* Adds dF/dT dT/dq of one element to the rows of a node; `side`: the node is end 0 or 1 of the element. */
+static void add_tension_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t element, uint32_t side,
+                           const double d[2])
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t other = side == 0 ? node + 1 : node - 1, columns = layout->size[other];
+    double *beside = side == 0 ? sim->stiffness_upper + layout->link[node] : sim->stiffness_lower + layout->link[other];
+    double by[2][6];
+    tension_by_rows(evaluation, element, by);
+    for (uint32_t k = 0; k < 2; k++) {
+        for (uint32_t c = 0; c < 2; c++) dmb_stiffness_of(sim, node)[2 * k + c] += d[k] * by[side][c];
+        for (uint32_t c = 0; c < columns; c++) beside[columns * k + c] += d[k] * by[1 - side][c];
+    }
+}
+
+/* Adds dF/dT dT/dq of the elements on both sides to the rows of the node. */
+static void add_tension_tangent(const dmb_evaluation *evaluation, uint32_t node, const double dF_dT[2])
+{
+    const dmb_scene *scene = evaluation->sim->scene;
     const uint32_t before = dmb_element_between(scene, node, 0), after = dmb_element_between(scene, node, 1);
     const double share = before != DMB_NONE && after != DMB_NONE ? 0.5 : 1.0;
-    const dmb_block_layout *layout = &scene->layout;
-    for (uint32_t k = 0; k < 2; k++) {
-        const double d = -share * dF_dT[k]; /* of the residual */
-        if (before != DMB_NONE && layout->size[node - 1] == DMB_NODE_AXIAL_TORSIONAL) {
-            const double stiffness = scene->types[scene->element_type[before]].stiffness[0];
-            dmb_stiffness_of(sim, node)[2 * k] += d * stiffness;
-            sim->stiffness_lower[layout->link[node - 1] + 2 * k] -= d * stiffness;
-        }
-        if (after != DMB_NONE && layout->size[node + 1] == DMB_NODE_AXIAL_TORSIONAL) {
-            const double stiffness = scene->types[scene->element_type[after]].stiffness[0];
-            dmb_stiffness_of(sim, node)[2 * k] -= d * stiffness;
-            sim->stiffness_upper[layout->link[node] + 2 * k] += d * stiffness;
-        }
-    }
+    const double d[2] = {-share * dF_dT[0], -share * dF_dT[1]}; /* of the residual */
+    if (before != DMB_NONE) add_tension_of(evaluation, node, before, 1, d);
+    if (after != DMB_NONE) add_tension_of(evaluation, node, after, 0, d);
 }
 
 /* ---- Runs ------------------------------------------------------------------------------------------------------ */
@@ -159,6 +202,7 @@ static dmb_axial_torsional_node_args args_of(const dmb_evaluation *evaluation, c
         .residual = sim->residual + row,
         .scale = sim->scale_row + row,
         .inertia = sim->inertia_diagonal + scene->layout.diag[chunk->node],
+        .stiffness = sim->stiffness_diagonal + scene->layout.diag[chunk->node],
         .potential = evaluation->power[DMB_POWER_POTENTIAL],
         .damping_power = evaluation->power[DMB_POWER_DAMPING],
         .friction_power = evaluation->power[DMB_POWER_FRICTION],
@@ -215,8 +259,7 @@ static void assemble_chunk(dmb_evaluation *evaluation, node_chunk *chunk)
     evaluation->power[DMB_POWER_FRICTION] = args.friction_power;
     for (uint32_t i = 0; i < tangents; i++) {
         const double *by_tension = chunk->by_tension + 2 * (size_t)i;
-        if (by_tension[0] != 0.0 || by_tension[1] != 0.0)
-            add_tension_tangent(evaluation->sim, chunk->node + i, by_tension);
+        if (by_tension[0] != 0.0 || by_tension[1] != 0.0) add_tension_tangent(evaluation, chunk->node + i, by_tension);
     }
 }
 

@@ -1,5 +1,6 @@
 /* Frame b seen from frame a: pose, twist, convective term, forces and tangent, each against six-point differences of
- * the composed poses or against the power. Checks eq:joints.relative-motion and eq:joints.relative-tangent. */
+ * the composed poses or against the power. Checks eq:joints.relative-motion, eq:joints.relative-tangent and
+ * eq:joints.speed-tangent. */
 #include <string.h>
 
 #include "check.h"
@@ -230,6 +231,51 @@ static void tangent_is_the_derivative_of_the_forces(void **state)
     check_below("tangent against differences of the forces", error, 1e-10);
 }
 
+/* Speeds of the six coordinates when body c/6 moves by `step` along its direction c % 6, at the same body-frame
+ * velocities. */
+static void speeds_at(const two_bodies *s, int c, double step, double speeds[6])
+{
+    static const double near[2] = {0.0, 0.0};
+    two_bodies there = *s;
+    double h[6] = {0.0};
+    dmb_joint_coordinates at;
+    h[c % 6] = step;
+    there.body[c / 6] = moved(&s->body[c / 6], h);
+    const dmb_relative r = relative_of(&there);
+    dmb_joint_coordinates_at(r.R, r.p, r.V, near, &at);
+    for (int k = 0; k < 6; k++) speeds[k] = dmb_vec6_dot(at.J[k], r.V);
+}
+
+static void speeds_change_with_the_pose(void **state)
+{
+    static const double near[2] = {0.0, 0.0};
+    uint64_t seed = 35;
+    double error = 0.0;
+    (void)state;
+    for (int i = 0; i < ROUNDS; i++) {
+        const two_bodies s = draw_bodies(&seed, i % 2);
+        const dmb_relative r = relative_of(&s);
+        dmb_joint_coordinates at;
+        double G[6][6];
+        dmb_joint_coordinates_at(r.R, r.p, r.V, near, &at);
+        if (fabs(at.value[5]) > 1.2) continue; /* near the edge of the angles */
+        dmb_joint_speeds_tangent(&r, &at, s.v[1], G);
+        for (int c = s.ground ? 6 : 0; c < 12; c++) {
+            double v[6][6], speeds[6];
+            for (int p = 0; p < 6; p++) {
+                speeds_at(&s, c, STEP * difference6_place[p], speeds);
+                for (int k = 0; k < 6; k++) v[k][p] = speeds[k];
+            }
+            for (int k = 0; k < 6; k++) {
+                double want = 0.0;
+                for (int m = 0; m < 6; m++) want += G[k][m] * (c < 6 ? r.to_a[6 * m + c] : r.to_b[6 * m + c - 6]);
+                error = fmax(error, fabs(difference6(v[k], STEP) - want) / (1.0 + fabs(want)));
+            }
+        }
+    }
+    check_below("speeds of coordinates by the pose against differences", error, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,6 +283,7 @@ int main(void)
         cmocka_unit_test(motion_is_the_derivative),
         cmocka_unit_test(forces_give_the_same_power),
         cmocka_unit_test(tangent_is_the_derivative_of_the_forces),
+        cmocka_unit_test(speeds_change_with_the_pose),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

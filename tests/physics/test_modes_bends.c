@@ -1,0 +1,171 @@
+/* Stiffness of forces whose direction turns with the motion, in modes: weight and loads of a string on the axis of a
+ * bent hole, dampers of joints that spin. Closed forms: a pendulum on an arc, internal damping of a rotor. Checks
+ * eq:motion.weight-along and eq:joints.speed-tangent. */
+#include <complex.h>
+#undef I /* a member in rig.h */
+
+#include "mechanism.h"
+#include "modal.h"
+
+#define RADIUS 50.0 /* [m] of the arc */
+#define LENGTH 2.0  /* [m] of the string */
+
+/* An arc of 60 degrees in a vertical plane, its middle at the world's origin and there along x; open above (sign 1) or
+ * below (-1), without friction. */
+static void add_arc(rig *s, double sign)
+{
+    const double half = PI / 6.0;
+    const double survey[6] = {0.0, 0.5 * PI - sign * half, 0.0, 2.0 * half * RADIUS, 0.5 * PI + sign * half, 0.0};
+    dmb_wall_def wall = dmb_wall_def_default();
+    wall.survey = survey;
+    wall.survey_count = 2;
+    wall.origin[0] = -RADIUS * sin(half);
+    wall.origin[2] = sign * RADIUS * (1.0 - cos(half));
+    wall.friction_law = DMB_FRICTION_NONE;
+    (void)add_wall(s, &wall);
+}
+
+/* Two axial-torsional pipes that slide along the middle of the arc. */
+static dmb_id add_slider(rig *s)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    string.start_depth = RADIUS * PI / 6.0 - 0.5 * LENGTH;
+    string.start_free = DMB_FREE_CYLINDRICAL;
+    pipe.string = add_string(s, &string);
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.length = 0.5 * LENGTH;
+    pipe.outer_diameter = 0.08;
+    pipe.inner_diameter = 0.06;
+    (void)add_pipes(s, &pipe, 2);
+    return pipe.string;
+}
+
+/* s^2 of the lowest axial motion, by its eigenvalue. */
+static double square_of_sliding(const rig *s)
+{
+    dmb_modes *modes = all_modes(s, DMB_MODES_UNDAMPED);
+    double square = 0.0, least = INFINITY;
+    for (uint32_t i = 0; i < info_of(modes).count; i++) {
+        const dmb_mode mode = mode_at(modes, i);
+        const double re = mode.eigenvalue[0], im = mode.eigenvalue[1];
+        if (mode.share[0] < 0.5 || re * re + im * im >= least) continue;
+        least = re * re + im * im;
+        square = re * re - im * im;
+    }
+    dmb_modes_destroy(&modes);
+    return square;
+}
+
+/* w^2 = g/R times the mean of the cosines at the nodes, with which half of the weight is in the middle; at the top of
+ * an arch it falls off either side at that rate. */
+static void weight_on_an_arc(void **state)
+{
+    (void)state;
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        const double want = -sign * 9.81 / RADIUS * 0.5 * (1.0 + cos(0.5 * LENGTH / RADIUS));
+        rig s;
+        rig_open(&s, 0.0, 0.0, -9.81);
+        add_arc(&s, sign);
+        (void)add_slider(&s);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        check_relative(sign > 0 ? "string in a sag: s^2" : "string on a crest: s^2", square_of_sliding(&s), want, 1e-6);
+        rig_close(&s);
+    }
+}
+
+/* A load in world axes at the middle node in place of the weight: the string slides until its tangent is across it, and
+ * swings there with w^2 = F/(R m). */
+static void load_on_an_arc(void **state)
+{
+    (void)state;
+    const double mass = dmb_pipe_def_default().density * 0.25 * PI * (0.08 * 0.08 - 0.06 * 0.06) * LENGTH;
+    for (int side = -1; side <= 1; side += 2) {
+        dmb_load_def load = dmb_load_def_default();
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        add_arc(&s, 1.0);
+        load.place = dmb_station(add_slider(&s), 0, 1.0);
+        load.force[0] = 100.0 * side;
+        load.force[2] = -500.0;
+        (void)add_load(&s, &load);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        check_relative("string under a load: s^2", square_of_sliding(&s), -hypot(100.0, 500.0) / (RADIUS * mass), 1e-6);
+        rig_close(&s);
+    }
+}
+
+/* ---- Damper that spins ------------------------------------------------------------------------------------------- */
+
+#define AXIAL 1.2       /* [kg m2] of the rotor */
+#define ACROSS 0.9      /* [kg m2] */
+#define STIFFNESS 400.0 /* [N m/rad] */
+#define DAMPING 3.0     /* [N m s] */
+
+/* A rotor on a ball joint to a plate that is fixed. Coordinates of a joint are relative to its frame a: the plate's, or
+ * the rotor's, whose damper then spins with it. */
+static rig open_rotor(int spins, double spin)
+{
+    dmb_body_def plate = dmb_body_def_default(), rotor = dmb_body_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    plate.mass = rotor.mass = 3.0;
+    for (int i = 0; i < 3; i++) plate.inertia[i] = 1.0, rotor.inertia[i] = i == 0 ? AXIAL : ACROSS;
+    rotor.velocity[3] = spin;
+    const dmb_place on_plate = dmb_station(add_body(&s, &plate), 0, 0.0);
+    const dmb_place on_rotor = dmb_station(add_body(&s, &rotor), 0, 0.0);
+    (void)add_joint_between(&s, DMB_JOINT_FIXED, dmb_station(ground_id, 0, 0.0), on_plate);
+    dmb_joint_def ball = joint_between(DMB_JOINT_SPHERICAL, spins ? on_rotor : on_plate, spins ? on_plate : on_rotor);
+    for (int i = 4; i < 6; i++) {
+        ball.stiffness[i] = STIFFNESS;
+        ball.damping[i] = DAMPING;
+    }
+    (void)add_joint(&s, &ball);
+    (void)rig_start(&s, NULL);
+    return s;
+}
+
+/* Tilt z = y + i z in axes at rest: A z'' - i C w z' + k z + c (z' - i w z) = 0, without i w z of a damper at rest. A
+ * damper that spins takes damping from the forward precession and gives it to the backward one. */
+static void check_damper(int spins, double spin)
+{
+    const double complex b = CMPLX(DAMPING, -AXIAL * spin), c = CMPLX(STIFFNESS, spins ? -spin * DAMPING : 0.0);
+    const double complex root = csqrt(b * b - 4.0 * ACROSS * c);
+    rig s = open_rotor(spins, spin);
+    dmb_modes_options options = dmb_modes_options_default();
+    options.kind = DMB_MODES_DAMPED;
+    options.select = DMB_MODES_ALL;
+    options.axes = DMB_MODES_AXES_AT_REST;
+    dmb_modes *modes = find_modes(&s, &options);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double complex want = (-b + sign * root) / (2.0 * ACROSS);
+        double nearest = INFINITY;
+        for (uint32_t i = 0; i < info_of(modes).count; i++) {
+            const dmb_mode mode = mode_at(modes, i);
+            nearest = fmin(nearest, hypot(mode.eigenvalue[0] - creal(want), mode.eigenvalue[1] - fabs(cimag(want))));
+        }
+        print_message("    spin %g rad/s: %g %+g i\n", spin, creal(want), cimag(want));
+        check_below(spins ? "damper that spins: eigenvalue" : "damper at rest: eigenvalue", nearest / cabs(want), 1e-9);
+    }
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
+static void dampers_of_a_rotor(void **state)
+{
+    (void)state;
+    for (double spin = 10.0; spin < 100.0; spin *= 3.0)
+        for (int spins = 0; spins < 2; spins++) check_damper(spins, spin);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weight_on_an_arc),
+        cmocka_unit_test(load_on_an_arc),
+        cmocka_unit_test(dampers_of_a_rotor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
