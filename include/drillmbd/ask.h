@@ -91,8 +91,7 @@ DMB_SIZED_STRUCT(dmb_energy)
 DMB_API int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy);
 typedef struct dmb_momentum {
     uint32_t struct_size, reserved;
-    double linear[3], angular[3]; /* [kg m/s; kg m2/s] linear; angular about the world's origin; world frame; with the impulse of
-        added mass of mud, as in the equations of motion */
+    double linear[3], angular[3]; /* [kg m/s; kg m2/s] with added mass of mud; angular about the world's origin; world frame */
     double mass, centre[3]; /* [kg; m] of all parts, without mud; centre of mass, world frame */
 } dmb_momentum;
 DMB_SIZED_STRUCT(dmb_momentum)

@@ -206,7 +206,7 @@ static void numbers_of_the_clock_are_named(void **state)
     (void)state;
     static const size_t places[] = {offsetof(dmb_clock, time), offsetof(dmb_clock, step),
                                     offsetof(dmb_clock, next_step), offsetof(dmb_clock, power)};
-    static const double values[] = {-1.0, -1.0, -1.0, INFINITY};
+    static const double values[] = {-1.0, -1.0, -1.0, (double)INFINITY};
     dmb_field fields[DMB_FIELD_MAX];
     subject s = open_subject(SAVED_STRING);
     const size_t count = dmb_sim_fields(s.sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);

@@ -45,7 +45,7 @@ static dmb_id add_slider(rig *s)
 static double square_of_sliding(const rig *s)
 {
     dmb_modes *modes = all_modes(s, DMB_MODES_UNDAMPED);
-    double square = 0.0, least = INFINITY;
+    double square = 0.0, least = (double)INFINITY;
     for (uint32_t i = 0; i < info_of(modes).count; i++) {
         const dmb_mode mode = mode_at(modes, i);
         const double re = mode.eigenvalue[0], im = mode.eigenvalue[1];
@@ -131,7 +131,8 @@ static rig open_rotor(int spins, double spin)
  * damper that spins takes damping from the forward precession and gives it to the backward one. */
 static void check_damper(int spins, double spin)
 {
-    const double complex b = CMPLX(DAMPING, -AXIAL * spin), c = CMPLX(STIFFNESS, spins ? -spin * DAMPING : 0.0);
+    const double complex b = DAMPING - AXIAL * spin * (double complex)_Complex_I;
+    const double complex c = STIFFNESS - (spins ? spin * DAMPING : 0.0) * (double complex)_Complex_I;
     const double complex root = csqrt(b * b - 4.0 * ACROSS * c);
     rig s = open_rotor(spins, spin);
     dmb_modes_options options = dmb_modes_options_default();
@@ -141,7 +142,7 @@ static void check_damper(int spins, double spin)
     dmb_modes *modes = find_modes(&s, &options);
     for (int sign = -1; sign <= 1; sign += 2) {
         const double complex want = (-b + sign * root) / (2.0 * ACROSS);
-        double nearest = INFINITY;
+        double nearest = (double)INFINITY;
         for (uint32_t i = 0; i < info_of(modes).count; i++) {
             const dmb_mode mode = mode_at(modes, i);
             nearest = fmin(nearest, hypot(mode.eigenvalue[0] - creal(want), mode.eigenvalue[1] - fabs(cimag(want))));

@@ -730,8 +730,8 @@ class Momentum(Sized):
         ("centre", c_double * 3),
     ]
     field_docs = {
-        "linear": ("kg m/s", "linear; angular about the world's origin; world frame; with the impulse of added mass of mud, as in the equations of motion"),
-        "angular": ("kg m2/s", "linear; angular about the world's origin; world frame; with the impulse of added mass of mud, as in the equations of motion"),
+        "linear": ("kg m/s", "with added mass of mud; angular about the world's origin; world frame"),
+        "angular": ("kg m2/s", "with added mass of mud; angular about the world's origin; world frame"),
         "mass": ("kg", "of all parts, without mud"),
         "centre": ("m", "centre of mass, world frame"),
     }
