@@ -73,7 +73,7 @@ class NamesTest(unittest.TestCase):
         cls.cache = folder.name
 
     def check_types(self, path):
-        """Output of mypy, which keeps what it has read of the package from one call to the next."""
+        """Output of mypy, with one cache of the package for all calls."""
         return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", self.cache, path],
                               capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
 

@@ -1041,7 +1041,7 @@ class BadFilesTest(unittest.TestCase):
 
 
 class UnitOfDriveTest(unittest.TestCase):
-    """"N or N m" of a output goes by the drive that it is about: a torque on a rotary drive was requested in N."""
+    """"N or N m" of an output depends on its drive: a torque on a rotary drive was requested in N."""
     SCENE = """
 [[string]]
 name = "rods"

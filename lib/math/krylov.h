@@ -21,9 +21,9 @@ typedef struct dmb_operator {
     void (*apply)(void *context, const double *x, const double *Gx, double *y); /* y = A x */
     void (*draw)(void *context, uint64_t *seed, double *x);                     /* a random vector of the space */
     int32_t (*go_on)(void *context); /* may be NULL: called before each vector, < 0 ends the search */
-    size_t
-        most; /* largest number of vectors in the basis, and if `partly`, the search also ends once more vectors hardly
-                 reduce the residual of the first value that has not converged; 0: default of dmb_krylov_largest */
+    /* Largest number of vectors in the basis; if `partly`, the search also ends once more vectors hardly reduce the
+     * residual of the first value that has not converged. 0: default of dmb_krylov_largest */
+    size_t most;
     int32_t counted; /* 1: the caller counts the values, so that no random vector is appended to confirm them */
     uint32_t enough; /* the search also ends if this number of values lies beyond these two bounds, < 0 and > 0; 0:
                         unused. Symmetric only */
