@@ -3,6 +3,7 @@ help."""
 import csv
 import importlib.util
 import json
+import math
 import os
 import pathlib
 import re
@@ -441,6 +442,45 @@ class CommandTest(FolderTest):
         self.scene = self.write("rig.toml", SCENE)
         self.assertIn("limits of the rig: not assessed, because the scene has no [limits]",
                       self.call("torque-drag", self.scene))
+
+    def test_pull_that_lifts_the_string(self):
+        """In a hole that rises in a bend, weight hangs on the pull and the pull lifts the string off the wall: more
+        arrives at the bit than the rig pulls. Other holes and loads alike: with that force at the bit the rig has the
+        given load."""
+        from drillmbd import enums, scene, stuck
+        from drillmbd.analysis import usual_operation
+        holes = {"rises": (90.0, 130.0), "rises more": (130.0, 170.0), "falls": (90.0, 50.0), "level": (90.0, 90.0)}
+        for name, (first, last) in holes.items():
+            made = scene.loads(f"""[hole]
+survey = [["0 m", "{first} deg", 0], ["140 m", "{last} deg", 0]]
+mu_static = 0.35
+mu_dynamic = 0.35
+[[string]]
+[[string.pipes]]
+count = 140
+outer_diameter = "73 mm"
+inner_diameter = "55 mm"
+""")
+            string = made.names[next(iter(made.pipes))]
+            with made.new_sim() as sim:
+                for load in (1e3, 30e3, 60e3):
+                    force, _ = stuck.pull_at_bit(sim, string, load)
+                    pull = usual_operation(enums.OPERATION_PICK_UP, weight_on_bit=-force)
+                    self.assertAlmostEqual(sim.torque_drag([pull], string=string).rows[0][0].hook_load / load, 1.0, 9)
+                    force, _ = stuck.push_at_bit(sim, string, load)
+                    push = usual_operation(enums.OPERATION_SLACK_OFF, weight_on_bit=force)
+                    self.assertAlmostEqual(-sim.torque_drag([push], string=string).rows[0][0].hook_load / load, 1.0, 8)
+                if name == "rises":
+                    weight = 9.81 * 7850.0 * math.pi / 4.0 * (0.073 ** 2 - 0.055 ** 2)
+                    known, steps, radius = 30e3, 20000, 140.0 / math.radians(40.0)
+                    for i in range(steps):  # dN/ds = w sin(dip) - mu |w cos(dip) - N/R|
+                        dip, before = math.radians(40.0) * (i + 0.5) / steps, known
+                        for _ in range(2):
+                            middle = 0.5 * (before + known)
+                            known = before + 140.0 / steps * (weight * math.sin(dip) - 0.35 * abs(
+                                weight * math.cos(dip) - middle / radius))
+                    self.assertGreater(known, 34e3)
+                    self.assertAlmostEqual(stuck.pull_at_bit(sim, string, 30e3)[0] / known, 1.0, 6)
 
     def test_stuck(self):
         out, summary = self.results("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction",

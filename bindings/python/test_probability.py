@@ -380,6 +380,43 @@ limit = "2 kN m"
                              'low = "93 mm"\nhigh = "95 mm"\n'))
 
 
+class SurveyTest(unittest.TestCase):
+    def test_beyond_the_vertical(self):
+        """Errors of a vertical hole tilt it to either side, downwards and upwards, with the same distribution; the
+        course stays smooth where an inclination passes 0 or 180 deg."""
+        for vertical, azimuth in (("0 deg", "30 deg"), ("180 deg", "30 deg"), ("1 deg", "-200 deg")):
+            rows = ", ".join(f'["{depth} m", "{vertical}", "{azimuth}"]' for depth in (0, 30, 60))
+            text = f"""[hole]
+survey = [{rows}]
+[[string]]
+[[string.pipes]]
+count = 60
+[variability]
+question = "static"
+[[variability.field]]
+key = "hole.survey.inclination"
+distribution = "normal"
+mean = 0
+deviation = "2 deg"
+correlation_length = "500 m"
+"""
+            draw, ends = Draw(scene.loads(text)), []
+            for sign in (1.0, -1.0):
+                values = draw.values(sign * np.eye(draw.dimension)[0])
+                rows = scene.loads(text, changes=draw.overrides(values)).model
+                known = math.radians(float(vertical.split()[0])) + values["field-0"]
+                for depth, inclination in zip((0.0, 30.0, 60.0), known):
+                    point = rows.hole(depth)
+                    tangent = np.array(rows.hole(depth + 1e-3).position) - point.position
+                    side = math.sin(inclination) * np.array([math.cos(math.radians(float(azimuth.split()[0]))),
+                                                             -math.sin(math.radians(float(azimuth.split()[0])))])
+                    self.assertLess(np.abs(tangent[:2] / 1e-3 - side).max(), 1e-6, (vertical, depth))
+                ends.append(np.array(rows.hole(60.0).position[:2]))
+            if vertical != "1 deg":
+                self.assertLess(np.abs(ends[0] + ends[1]).max(), 1e-9)
+                self.assertGreater(np.abs(ends[0]).max(), 1.0)
+
+
 class LimitTest(unittest.TestCase):
     """Each margin against what is known."""
 

@@ -157,6 +157,44 @@ class SoftTest(unittest.TestCase):
         self.check(LEVEL + more + ALL, "survey is no factor of the numbers that it changes")
         self.assertIn("reads the scene again", SceneSample(LEVEL + more + ALL).soft.notes()[0])
 
+    def test_another_string(self):
+        """Torque and drag computes the first string: a failure of another one is refused, by string, drive and bit; a
+        static state computes it."""
+        thick = LEVEL.replace('[[bit]]', """[[string]]
+name = "thick"
+[[string.pipes]]
+count = 60
+outer_diameter = "89 mm"
+[[drive]]
+name = "other head"
+part = "thick"
+component = "rx"
+time_function = "turning"
+[[drive]]
+name = "other feed"
+part = "thick"
+time_function = "feeding"
+[[bit]]
+string = "thick"
+name = "other bit"
+diameter = 0
+[[bit]]
+""", 1).replace('name = "feed"', 'name = "feed"\npart = "rods"').replace('name = "head"',
+                                                                         'name = "head"\npart = "rods"')
+        kept = failure("rig-torque", head="head", limit="1 kN m") + failure("lock-up", bit="bit", feed="feed")
+        self.assertEqual(len(SceneSample(thick + kept).names), 2)
+        for more in (failure("connection-torque", string="thick", limit="1 kN m"),
+                     failure("rig-torque", name="other", head="other head", limit="1 kN m"),
+                     failure("lock-up", name="other", bit="other bit", feed="feed")):
+            with self.assertRaisesRegex(CannotDraw, "is about the string thick: torque and drag computes the first "
+                                                    "string only, rods"):
+                SceneSample(thick + kept + more).names
+        both = SceneSample(thick.replace('"torque-drag"', '"static"') + "".join(
+            failure("connection-torque", name=one, string=one, limit="1 kN m") for one in ("rods", "thick")))
+        thin, heavy = both(0, np.zeros(both.dimension)).demands
+        # the estimated torque of the bit is part of both
+        self.assertGreater(heavy, 1.5 * thin)
+
     def test_closed_form(self):
         sample = SceneSample(LEVEL + FORCES)
         for number in range(5):
@@ -541,7 +579,7 @@ class AutoTest(FolderTest):
             cheap, run = a - x, a - x - b * y
             near = abs(cheap) < auto.NEAR
             ran = near | (rng.random(1000) < auto.FAR)
-            one = auto.Stage(cheap <= 0.0, near, ran, ran & (run <= 0.0), 0, auto.FAR).estimate(0.95)
+            one = auto.Stage(cheap <= 0.0, near, ran, ran, ran & (run <= 0.0), auto.FAR).estimate(0.95)
             values.append(one.probability)
             inside += one.low <= truth <= one.high
         self.assertLess(abs(np.mean(values) - truth), 4.0 * np.std(values) / math.sqrt(repeats))
@@ -550,8 +588,26 @@ class AutoTest(FolderTest):
     def test_nothing_far_was_seen(self):
         """No run among samples that are far: their share stays in the interval."""
         safe = np.zeros(100, bool)
-        one = auto.Stage(safe, safe, safe, safe, 0, auto.FAR).estimate(0.95)
+        one = auto.Stage(safe, safe, safe, safe, safe, auto.FAR).estimate(0.95)
         self.assertEqual((one.probability, one.low, one.high), (0.0, 0.0, 1.0))
+
+    def test_lost_runs(self):
+        """The interval holds whatever lost runs would have shown: all of them failures, or none, among samples that are
+        near a limit and among the others, predicted as failures or not."""
+        rng = np.random.default_rng(5)
+        for share, predicted_share, near_share in ((0.05, 0.0, 0.0), (0.05, 0.0, 0.5), (0.95, 1.0, 0.0),
+                                                   (0.5, 0.5, 0.2)):
+            for lost_fail in (True, False):
+                inside = 0
+                for _ in range(100):
+                    fails, near = rng.random(2000) < share, rng.random(2000) < near_share
+                    chosen = near | (rng.random(2000) < auto.FAR)
+                    ran = chosen & (fails != lost_fail)
+                    one = auto.Stage(rng.random(2000) < predicted_share, near, chosen, ran, ran & fails,
+                                     auto.FAR).estimate(0.95)
+                    self.assertEqual(one.lost, int((chosen & ~ran).sum()))
+                    inside += one.low <= share <= one.high
+                self.assertGreaterEqual(inside, 95, (share, predicted_share, near_share, lost_fail))
 
     def test_all_runs_are_lost(self):
         """No probability, also where torque and drag of all samples predict no failure."""

@@ -279,6 +279,10 @@ class SurveyTest(unittest.TestCase):
                                'survey_columns = ["depth", "azimuth", "dip"]\nsurvey = [["0 m", 0, "5 deg"], ["9 m", '
                                '0, "5 deg"]]')
         self.assertAlmostEqual(scene.loads(inline).model.hole(9.0).position[2], 9.0 * math.sin(math.radians(5.0)), 12)
+        both = SCENE.replace('survey_file = "%s"\n%s', 'survey_columns = ["depth", "dip", "inclination", "azimuth"]\n'
+                             'survey = [["0 m", "-10 deg", "80 deg", 0], ["9 m", "-10 deg", "80 deg", 0]]')
+        self.assertAlmostEqual(scene.loads(both).model.hole(9.0).position[2], -9.0 * math.sin(math.radians(10.0)), 12)
+        self.assertIn("the inclination is read", scene.loads(both).remarks[0].text)
         straight = SCENE.replace('survey_file = "%s"\n%s', 'dip = "5 deg"\nazimuth = "30 deg"')
         point = scene.loads(straight).model.hole(10.0)
         self.assertAlmostEqual(point.position[2], 10.0 * math.sin(math.radians(5.0)), 12)

@@ -19,8 +19,15 @@ MOST = 1e12     #: [N, N m] a limit that no rig has
 TOO_LONG = 1.2  #: measured stretch over that of the free string, up to which tolerances of pipes may explain it
 
 
-def _solve(of: Callable[[float], float], low: float, high: float) -> float:
-    """The zero of a rising function, by bisection."""
+def _solve(of: Callable[[float], float], size: float) -> float:
+    """[N] The zero of a rising function, by bisection. size: about that of the zero; the interval is widened until it
+    contains it, because the weight that a pull lifts off the wall rubs no more, and more may arrive than leaves the
+    rig."""
+    low, high = -size, size
+    while of(low) > 0.0 and low > -MOST:
+        low *= 2.0
+    while of(high) < 0.0 and high < MOST:
+        high *= 2.0
     for _ in range(80):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if of(middle) < 0.0 else (low, middle)
@@ -34,9 +41,8 @@ def _row(sim: Sim, string: Any, kind: int, weight: float, **more: Any) -> Torque
 def pull_at_bit(sim: Sim, string: Any, hook_load: float, **more: Any) -> tuple[float, TorqueDragRow]:
     """[N] effective tension at the far end when the rig pulls with hook_load [N], friction against it; and the row."""
     free = _row(sim, string, enums.OPERATION_PICK_UP, 0.0, **more).hook_load
-    span = abs(hook_load) + abs(free) + 1.0
-    force = _solve(lambda pull: _row(sim, string, enums.OPERATION_PICK_UP, -pull, **more).hook_load - hook_load, -span,
-                   span)
+    force = _solve(lambda pull: _row(sim, string, enums.OPERATION_PICK_UP, -pull, **more).hook_load - hook_load,
+                   abs(hook_load) + abs(free) + 1.0)
     return force, _row(sim, string, enums.OPERATION_PICK_UP, -force, **more)
 
 
@@ -46,7 +52,7 @@ def push_at_bit(sim: Sim, string: Any, thrust: float, **more: Any) -> tuple[floa
         row = _row(sim, string, enums.OPERATION_SLACK_OFF, push, **more)
         return math.inf if row.locked else -row.hook_load - thrust
     free = abs(_row(sim, string, enums.OPERATION_PICK_UP, 0.0, **more).hook_load)
-    force = _solve(too_much, -thrust - free - 1.0, thrust + free + 1.0)
+    force = _solve(too_much, thrust + free + 1.0)
     return force, _row(sim, string, enums.OPERATION_SLACK_OFF, force - 1e-9 * (abs(force) + 1.0), **more)
 
 

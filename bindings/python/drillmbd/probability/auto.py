@@ -49,14 +49,19 @@ class Stage:
     in time."""
     predicted: Any
     near: Any
-    ran: Any      #: with a margin
+    chosen: Any   #: to be run
+    ran: Any      #: of those, with a margin
     failed: Any   #: of those
-    lost: int     #: chosen to be run, and without a margin
     part: float   #: of the samples that are not near a limit
+
+    @property
+    def lost(self) -> int:
+        """Chosen to be run, and without a margin."""
+        return int((self.chosen & ~self.ran).sum())
 
     def estimate(self, confidence: float) -> Estimate:
         """P with the interval that holds for its three parts together (Bonferroni): counts of a part each, by Clopper
-        and Pearson."""
+        and Pearson. Lost runs are left out of P; for the interval each of them decides against it."""
         numpy, samples = need("numpy"), len(self.predicted)
         near, far = self.near & self.ran, ~self.near & self.ran
         parts = 1.0 - (1.0 - confidence) / 3.0
@@ -67,11 +72,11 @@ class Stage:
         for sign, group in ((1.0, ~self.near & ~self.predicted), (-1.0, ~self.near & self.predicted)):
             count, looked = int(group.sum()), int((group & far).sum())
             wrong = int((group & far & (self.failed != self.predicted)).sum())
-            ends = clopper_pearson(wrong, looked, parts) if looked else (0.0, 1.0)
-            ends = (ends[0], min(1.0, ends[1])) if count else (0.0, 0.0)
-            share = _upper_share(count, samples, parts)
+            gone = int((group & ~self.near & self.chosen & ~self.ran).sum())
+            most = clopper_pearson(wrong + gone, looked + gone, parts)[1] if looked + gone else 1.0
+            share = most * _upper_share(count, samples, parts)
             value += sign * (wrong / looked if looked else 0.0) * count / samples
-            low, high = (low, high + ends[1] * share) if sign > 0.0 else (low - ends[1] * share, high)
+            low, high = (low, high + share) if sign > 0.0 else (low - share, high)
         run = int(self.ran.sum())
         # torque and drag alone is no estimate
         value = float(numpy.clip(value, 0.0, 1.0)) if run or not self.lost else math.nan
@@ -140,13 +145,15 @@ class Auto(StudyResults):
                or chosen(settings.seed, number, part_of(settings.samples))]
         results = study.run(run, points.z)
         found = numpy.full((settings.samples, len(self.sample.names)), math.nan)
+        chosen_to_run = numpy.zeros(settings.samples, bool)
+        chosen_to_run[run] = True
         for one in results:
             found[one.number] = one.margins
         for i, name in enumerate(self.sample.names):
             soft = (margins[:, self.quick.names.index(name)] if name in self.quick.names
                     else numpy.full(settings.samples, math.inf))
-            self._report_stages(name, soft, near, found[:, i], len(run))
-        self._report_stages(ANY, least, near, (found / numpy.array(settings.scales())).min(axis=1), len(run))
+            self._report_stages(name, soft, near, chosen_to_run, found[:, i])
+        self._report_stages(ANY, least, near, chosen_to_run, (found / numpy.array(settings.scales())).min(axis=1))
         self._compare(margins, found, scale)
         if results:
             part = part_of(settings.samples)
@@ -154,10 +161,10 @@ class Auto(StudyResults):
                                                    for one in results]))
         self.table(results)
 
-    def _report_stages(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
+    def _report_stages(self, name: str, soft: Any, near: Any, chosen_to_run: Any, found: Any) -> None:
         numpy = need("numpy")
         ran = ~numpy.isnan(found)
-        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()),
+        stage = Stage(soft <= 0.0, near, chosen_to_run, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0),
                       part_of(self.settings.samples))
         self.report(name, stage.estimate(self.settings.confidence))
 

@@ -179,7 +179,8 @@ class Draw:
                 column = 1 if one.key.endswith("inclination") else 2
                 for row, error in zip(rows, values[one.name]):
                     row[column] = row[column] * error if one.relative else row[column] + error
-                    row[1] = min(max(row[1], 0.0), math.pi) if column == 1 else row[1]
+                    if column == 1:
+                        row[1:] = _beyond_vertical(row[1], row[2])
             found["hole.survey_file"] = found["hole.survey_columns"] = None
             found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))]
                                     for row in rows]
@@ -272,6 +273,17 @@ class Draw:
                 one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in segment["table"]]
             found.append(one)
         return found
+
+
+def _beyond_vertical(inclination: float, azimuth: float) -> tuple[float, float]:
+    """[rad] Inclination and azimuth of the same direction with the inclination within 0 .. pi: a hole that passes the
+    vertical tilts to the other side."""
+    inclination = math.fmod(inclination, 2.0 * math.pi)
+    if abs(inclination) > math.pi:
+        inclination -= math.copysign(2.0 * math.pi, inclination)
+    if inclination >= 0.0:
+        return inclination, azimuth
+    return -inclination, azimuth + (math.pi if azimuth <= 0.0 else -math.pi)
 
 
 def one_span(along: list[RandomField]) -> float:

@@ -14,6 +14,7 @@ from typing import Any
 
 from .._optional import need
 from ..errors import Error
+from ..remade import number_of
 from ..scene import CannotSave, Scene, SceneError, loads
 from ..scene.failure import KINDS, Failure
 from . import statics
@@ -83,6 +84,15 @@ def worst(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
     return next((one for one in found if math.isnan(one[0])), min(found))
 
 
+def string_of(scene: Scene, part: str, made: Any) -> str:
+    """The name of the string that a part of a failure belongs to; the first one for a drive of a joint or body."""
+    key = {"bit": "string", "string": ""}.get(part, "part")
+    calls = [arguments[0] for name, arguments in scene.model.calls if name == ("add_bit" if part == "bit"
+                                                                               else "add_drive")]
+    string = calls[number_of(made)].get(key) if key else made
+    return next((name for name in scene.pipes if scene.names[name] == string), next(iter(scene.pipes), ""))
+
+
 @dataclass
 class SceneSample:
     """evaluate(number, z) -> Result, of a scene given as text."""
@@ -137,6 +147,7 @@ class SceneSample:
             if not scene.failures:
                 raise CannotDraw(f"{self.name} has no [[failure]]: nothing can fail")
             self._refuse_others(scene.failures)
+            self._refuse_other_strings(scene)
             missing = [one.name for one in scene.failures if one.kind == "own" and one.name not in self.own]
             if missing:
                 raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own "
@@ -164,6 +175,18 @@ class SceneSample:
             if self.given_question != "run" and one.values.get("from", 0.0) > 0.0:
                 raise CannotDraw(f"failure {one.name}: from = {one.values['from']:g} s is for runs in time, and the "
                                  f"question is {self.given_question}")
+
+    def _refuse_other_strings(self, scene: Scene) -> None:
+        """Failures of another string than the first one, which is the only one that torque and drag computes."""
+        if self.question != "torque-drag":
+            return
+        first = next(iter(scene.pipes), "")
+        for one in self.failures:
+            others = [found for part, made in one.parts.items() if (found := string_of(scene, part, made)) != first]
+            if others:
+                raise CannotDraw(f"failure {one.name} ({one.kind}) is about the string {others[0]}: torque and drag "
+                                 f"computes the first string only, {first}; ask --question static or run, or take the "
+                                 "failure out")
 
     @property
     def dimension(self) -> int:

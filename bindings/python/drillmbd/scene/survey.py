@@ -43,6 +43,7 @@ MOST_BEND = 2.5      # [rad] between two stations, that of the library
 MANY_TURNS = 4.0 * math.pi + 1e-6   # [rad] of azimuth, above which it is noted
 MANY_DEGREES = math.radians(30.0) / 30.0
 EXAMPLE = '["30 m", "90 deg", "15 deg"]'
+BOTH_ANGLES = "has columns of inclination and of dip: the inclination is read"
 
 
 @dataclass
@@ -87,7 +88,10 @@ def inline(problems: Problems, path: Path, rows: Any, heads: Any) -> list[list[f
             problems.add(path + (number,), row, str(error))
     if len(problems.found) > before:
         return None
-    return _finished(problems, path, None, found, Survey([], "dip" in names))
+    survey = Survey([], "dip" in names and "inclination" not in names)
+    if "dip" in names and not survey.by_dip:
+        survey.remarks.append(BOTH_ANGLES)
+    return _finished(problems, path, None, found, survey)
 
 
 def _inline_station(where: str, values: dict[str, Any]) -> Station:
@@ -148,7 +152,7 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
                 for line, cells in found.rows]
     survey = Survey([], by_dip, found.heads, found.unit, found.remarks)
     if "dip" in found.heads and not by_dip:
-        survey.remarks.append("has columns of inclination and of dip: the inclination is read")
+        survey.remarks.append(BOTH_ANGLES)
     return _finished(problems, path, name, stations, survey)
 
 
