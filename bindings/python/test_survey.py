@@ -73,6 +73,12 @@ SAME = {
     "blank_unit.csv": "孔深 m,仰角 °,方位 °\n0,-90,0\n100,-90,0\n200,-80,45\n300,-70,45\n",
     "down.csv": "孔深(m),俯角(°),方位角(°)\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
     "plunge.csv": "depth [m],dip [deg] (down positive),azimuth [deg]\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
+    "down_only.csv": "depth [m],Dip (down),azimuth [deg]\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
+    "down_positive.csv": "depth [m],Dip (down positive),azimuth [deg]\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
+    "up_positive.csv": "depth [m],Dip (up positive),azimuth [deg]\n0,-90,0\n100,-90,0\n200,-80,45\n300,-70,45\n",
+    "from_vertical.csv": CSV.replace("inclination [deg]", "Inclination (from vertical)"),
+    "gon.csv": "Depth (m),Drift (gon),Bearing (gon)\n0,0,S 0 W\n100,0,N 0 E\n200,11.1111111111,N 50 E\n"
+               "300,22.2222222222,N50E\n",
     "feet.las": LAS.replace("DEPT.M", "DEPT.F").replace("100 75",
                                                         f"{100 / 0.3048!r} 75").replace("200 70",
                                                                                         f"{200 / 0.3048!r} 70").replace(
@@ -114,6 +120,11 @@ REFUSED = (("depth [m],inclination [deg],azimuth [deg]\n0,0,0\n100,,\n200,10,45\
            (CSV.replace("200,10,45", "200," + "1" * 400 + "z,45"), ("111...\"",)),
            (CSV.replace("200,10,45", "1,200,10,45").replace("300,20,45", "1300,20,45"),
             ("line 4 has 4 cells below 3 heads", "as 1,000?")),
+           ("MD [m],Inclination (from horizontal),Azi [deg]\n0,5,0\n100,5,0\n", ("no head names an inclination",)),
+           ("孔深(m),倾角(下倾为正),方位角(°)\n0,5,0\n100,5,0\n", ("no head names an inclination",)),
+           ("MD [m],Dip (%),Azi [deg]\n0,5,0\n100,5,0\n", ("column 2 (Dip (%)) is no angle in deg, rad or gon",)),
+           ("MD [m],Dip [deg],Azi (mils)\n0,5,0\n100,5,1600\n", ("column 3 (Azi (mils)) is no angle",)),
+           (CSV.replace("200,10,45", "200,10,N 120 E"), ("line 4, column 3", "more than 90 from N")),
            (LAS.replace("200 70 10 45", "200 70 -999.25 45"), ("-999.25", "missing value")))
 
 # north, east, down [m] at measured depth, inclination, azimuth: minimum curvature, published by well-path software.

@@ -44,6 +44,40 @@ def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
     return total
 
 
+HARMONIC_PARTS, STEP_PARTS = 48, 32  #: rows of a period, of a step: straight lines between them are off by 0.2 %
+PARTS = 8                            #: rows of a time function that changes, between two points of the process
+LEAST_GAP = 4e-12                    #: [s] between rows; the library takes 1e-12
+MOST_ROWS = 20_000                   #: of a time function that is multiplied by a process
+
+
+def own_times(segments: list[dict[str, Any]], begin: float, end: float) -> Any:
+    """[s] Times between which a time function is straight, or nearly so; peaks of harmonics among them."""
+    numpy, found = need("numpy"), [need("numpy").zeros(0)]
+    for segment in segments:
+        kind = segment.get("kind", SEGMENT_TABLE if segment.get("table") else SEGMENT_CONSTANT)
+        if kind in (SEGMENT_STEP, SEGMENT_STEP5):
+            found.append(numpy.linspace(segment.get("x0", 0.0), segment.get("x1", 1.0), STEP_PARTS + 1))
+        elif kind == SEGMENT_TABLE:
+            found.append(numpy.array([time for time, _ in segment["table"]], dtype=float))
+        elif kind == SEGMENT_PERIODIC:
+            own = numpy.array([time for time, _ in segment["table"]], dtype=float)
+            found.append(_repeated(own, own[-1] - own[0], begin, end))
+        elif kind == SEGMENT_HARMONIC and segment.get("omega", 0.0) and segment.get("h1", 0.0):
+            period = 2.0 * math.pi / abs(segment["omega"])
+            first = -segment.get("phase", 0.0) / segment["omega"]
+            found.append(_repeated(first + period / HARMONIC_PARTS * numpy.arange(HARMONIC_PARTS), period, begin, end))
+    times = numpy.concatenate(found)
+    return times[(times > begin) & (times < end)]
+
+
+def _repeated(times: Any, period: float, begin: float, end: float) -> Any:
+    """Times of one period in all periods between begin and end, at most somewhat more than MOST_ROWS."""
+    numpy = need("numpy")
+    first, last = math.floor((begin - times[0]) / period) - 1, math.ceil((end - times[0]) / period)
+    count = min(last - first + 1, MOST_ROWS // len(times) + 2)
+    return (times[None, :] + period * (first + numpy.arange(count))[:, None]).reshape(-1)
+
+
 class Draw:
     """The parts of z are those of the scattered parameters, then of each field, then of each process, in the order of
     the scene file."""
@@ -63,6 +97,7 @@ class Draw:
             (one, *self._process(one)) for one in self.varies.processes]
         self._refuse_both()
         self._refuse_twice()
+        self._factors = {one.name: self._base(one, times) for one, _, times in self.processes if one.how == "factor"}
         self.sizes = [len(self.varies.scatters), *(made.modes for _, made in self.fields),
                       *(made.modes for _, made, _ in self.processes)]
         self.dimension = sum(self.sizes)
@@ -256,9 +291,24 @@ class Draw:
         if one.how == "added":
             rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
             return {f"time_function[{number}].segment": [*self._written(segments, unit), {"table": rows}]}
-        rows = [[text(float(t), "s"), text(value_of_segments(segments, float(t)) * float(v), unit)]
-                for t, v in zip(times, factors)]
+        at, base = self._factors[one.name]
+        rows = [[text(float(t), "s"), text(float(b * v), unit)]
+                for t, b, v in zip(at, base, need("numpy").interp(at, times, factors))]
         return {f"time_function[{number}].segment": [{"table": rows}]}
+
+    def _base(self, one: RandomProcess, times: Any) -> tuple[Any, Any]:
+        """Times [s] of a time function that a process multiplies, those of the process among them, and its values."""
+        numpy, segments = need("numpy"), self._segments(one)
+        at, own = numpy.asarray(times, dtype=float), own_times(segments, float(times[0]), float(times[-1]))
+        if len(own):  # the product of two slopes is a parabola
+            at = numpy.linspace(at[0], at[-1], PARTS * (len(at) - 1) + 1)
+        at = numpy.union1d(at, own)
+        at = at[numpy.append(True, numpy.diff(at) > LEAST_GAP)]
+        if len(at) > MOST_ROWS:
+            raise CannotDraw(f"{one.name}: the time function {one.time_function} changes so fast that its product with "
+                             f"the process takes more than {MOST_ROWS} rows of a table; use how = \"added\", or give "
+                             "the process a time function of its own")
+        return at, numpy.array([value_of_segments(segments, float(time)) for time in at])
 
     def _written(self, segments: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:
         from ..scene import fields as known

@@ -2,6 +2,7 @@
 of the scene file. Messages name line, column, the value as written and the likely cause."""
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
@@ -11,6 +12,9 @@ from .table_file import Row, Table, TableError
 from .unit_text import plain
 
 MOST_FAULTS = 8  # that are listed of one file
+#: Words in brackets that say from where or in which sense an angle counts.
+SENSE = re.compile(r"horiz|vert|down|\bup|below|above|水平|垂|[上下]", re.I)
+NOT_ANGLES = ("%", "‰", "percent", "mil", "mils")  # units of slopes and of artillery, which are not read as degrees
 _MISSING = re.compile(r"-?9{3,5}(?:[.,]\d*)?|nan|null|none|n/?a|#n/?a|-+|\*+|x+", re.I)
 
 
@@ -57,7 +61,12 @@ def _name_and_unit(head: str) -> tuple[str, str]:
     text = plain(head).strip()
     match = re.search(r"[\[({<]\s*([^\])}>]*?)\s*[\])}>]", text)
     name, unit = (text[:match.start()] + " " + text[match.end():], match[1]) if match else (text, "")
-    return re.sub(r"[^\w°]+", " ", name.replace("_", " ")).strip().casefold(), unit
+    return _words(name), unit
+
+
+def _words(text: str) -> str:
+    """In small letters, without signs."""
+    return re.sub(r"[^\w°]+", " ", text.replace("_", " ")).strip().casefold()
 
 
 def _is(name: str, column: Column) -> bool:
@@ -71,8 +80,12 @@ def names_column(head: str, column: Column) -> bool:
 
 
 def _column_of(head: str, columns: tuple[Column, ...]) -> tuple[Column, str] | None:
-    """The column that a head names, and its unit; "depth m" and "MD_ft" count, too."""
+    """The column that a head names, and its unit; "depth m" and "MD_ft" count, too. A sense in brackets belongs to the
+    name: "dip (down positive)" is no dip, which is up positive."""
     name, unit = _name_and_unit(head)
+    if SENSE.search(unit):
+        whole = f"{name} {_words(unit)}"
+        return next(((column, "") for column in columns if whole in column.names), None)
     words = name.split()
     if not unit and len(words) > 1 and words[-1] not in ("s",):
         for column in columns:
@@ -220,6 +233,9 @@ def _settle_unit(one: _Place, found: Found, rows: list[Row], key: str) -> None:
         return
     if not one.unit and any(_own_unit(row, one) for row in rows[:1]):
         one.unit = column.assumed or column.unit  # each cell has its own
+    elif not one.unit and column.unit == "rad" and _name_and_unit(one.head)[1].casefold() in NOT_ANGLES:
+        found.faults.append(f"column {one.index + 1} ({one.head}) is no angle in deg, rad or gon; convert it")
+        one.unit = column.assumed
     elif not one.unit and column.assumed:
         found.remarks.append(f"column {one.index + 1} ({one.head}) has no unit: {column.assumed} is assumed")
         one.unit = column.assumed
@@ -278,7 +294,7 @@ def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
         text = text.replace(",", ".")
     bearing = re.fullmatch(r"([NS])\s*([\d.]+)\s*°?\s*([EW])", text, re.I) if one.column.unit == "rad" else None
     if bearing:
-        return _cell_of(_of_bearing(bearing), one, "")
+        return _cell_of(_of_bearing(bearing, _half_turn(one.unit)), one, "")
     try:
         number, rest, _ = number_text.split(text)
     except number_text.NoNumber as error:
@@ -300,10 +316,19 @@ def _same_number(a: str, b: str) -> bool:
         return False
 
 
-def _of_bearing(match: re.Match[str]) -> Decimal:
-    """N 45 E, S 30 W."""
+def _half_turn(unit: str) -> Decimal:
+    """180 of degrees, 200 of gon."""
+    half = Decimal(repr(math.pi)) / units.factor(unit, "rad")
+    return Decimal(round(half)) if abs(half - round(half)) < Decimal("1e-9") else half
+
+
+def _of_bearing(match: re.Match[str], half_turn: Decimal) -> Decimal:
+    """N 45 E, S 30 W: at most a quarter turn from north or south."""
     angle = Decimal(match[2])
-    from_north = angle if match[1].upper() == "N" else 180 - angle
+    if angle > half_turn / 2:
+        raise units.UnitError(f"is more than {half_turn / 2} from {match[1].upper()}; give an azimuth, or a bearing of "
+                              "at most a quarter turn")
+    from_north = angle if match[1].upper() == "N" else half_turn - angle
     return from_north if match[3].upper() == "E" else -from_north
 
 
