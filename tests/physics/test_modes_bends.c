@@ -1,9 +1,8 @@
-/* Stiffness of forces whose direction turns with the motion, in modes: weight and loads of a string on the axis of a
- * bent hole, dampers of joints that spin. Closed forms: a pendulum on an arc, internal damping of a rotor. Checks
- * eq:motion.weight-along and eq:joints.speed-tangent. */
-#include <complex.h>
-#undef I /* a member in rig.h */
-
+/* Stiffness of forces whose direction turns with the motion, in modes and responses: weight and loads of a string on
+ * the axis of a bent hole, loads in hole axes on a body, dampers of joints that spin. Closed forms: a pendulum on an
+ * arc, a body on springs, internal damping of a rotor. Checks eq:motion.weight-along, eq:motion.turn, eq:modes.skew and
+ * eq:joints.speed-tangent. */
+#include "harmonic.h"
 #include "mechanism.h"
 #include "modal.h"
 
@@ -97,6 +96,168 @@ static void load_on_an_arc(void **state)
     }
 }
 
+/* ---- Load in hole axes ------------------------------------------------------------------------------------------- */
+
+/* A body on springs k, pulled by F towards the centre of the arc: it moves in by d = F/k and swings about the centre
+ * under k R/(R - d). */
+static void body_pulled_to_the_centre(void **state)
+{
+    (void)state;
+    const double k = 4000.0, m = 10.0;
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        dmb_body_def body = dmb_body_def_default();
+        dmb_load_def load = dmb_load_def_default();
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        add_arc(&s, sign);
+        body.mass = m;
+        for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
+        load.place = dmb_station(add_body(&s, &body), 0, 0.0);
+        dmb_joint_def joint = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), load.place);
+        for (int i = 0; i < 6; i++) joint.stiffness[i] = i < 3 ? k : 3.0 * k;
+        (void)add_joint(&s, &joint);
+        load.frame = DMB_FRAME_HOLE;
+        load.force[2] = sign * 0.2 * k;
+        (void)add_load(&s, &load);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
+        check_below("body pulled to the centre of a bend: swing along the hole",
+                    closest_mode(modes, sqrt(k / m / (1.0 - 0.2 / RADIUS))), 1e-9);
+        check_below("body pulled to the centre of a bend: across the hole", closest_mode(modes, sqrt(k / m)), 1e-9);
+        dmb_modes_destroy(&modes);
+        rig_close(&s);
+    }
+}
+
+/* A body on springs kx, kz, pushed by F along the hole: F is constant and its direction t turns, K = diag(kx, kz) - F/r
+ * n t^T in the plane of the arc, r the distance from its centre, which is not symmetric (eq:motion.turn). Its modes,
+ * and displacements by a force of 40 rad/s. */
+static void check_pushed(double sign, double F)
+{
+    const double k[2] = {4000.0, 7000.0}, m = 10.0, w = 40.0;
+    dmb_body_def body = dmb_body_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    add_arc(&s, sign);
+    body.mass = m;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
+    load.place = dmb_station(add_body(&s, &body), 0, 0.0);
+    dmb_joint_def joint = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), load.place);
+    for (int i = 0; i < 6; i++) joint.stiffness[i] = i == 0 ? k[0] : i < 3 ? k[1] : 30.0 * k[1];
+    (void)add_joint(&s, &joint);
+    load.frame = DMB_FRAME_HOLE;
+    load.force[0] = F;
+    (void)add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    const dmb_pose at = pose_at(&s, load.place);
+    const double r[2] = {at.displacement[0], at.displacement[2] - sign * RADIUS}, c = F / hypot(r[0], r[1]);
+    const double t[2] = {-sign * r[1] / hypot(r[0], r[1]), sign * r[0] / hypot(r[0], r[1])},
+                 n[2] = {-sign * t[1], sign * t[0]};
+    double K[2][2];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) K[i][j] = (i == j ? k[i] : 0.0) - c * n[i] * t[j];
+    const double mean = 0.5 * (K[0][0] + K[1][1]), half = sqrt(pow(0.5 * (K[0][0] - K[1][1]), 2) + K[0][1] * K[1][0]);
+    dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
+    check_below("body pushed along a bend: first mode", closest_mode(modes, sqrt((mean - half) / m)), 1e-10);
+    check_below("  second mode", closest_mode(modes, sqrt((mean + half) / m)), 1e-10);
+    dmb_modes_destroy(&modes);
+    const double D[2][2] = {{K[0][0] - m * w * w, K[0][1]}, {K[1][0], K[1][1] - m * w * w}};
+    const double det = D[0][0] * D[1][1] - D[0][1] * D[1][0];
+    const double want[2][2] = {{D[1][1] / det, -D[0][1] / det}, {-D[1][0] / det, D[0][0] / det}};
+    for (int out = 0; out < 2; out++)
+        for (int in = 0; in < 2; in++) {
+            const dmb_excitation force = force_at(load.place, in == 0 ? DMB_X : DMB_Z);
+            const dmb_output moved = output_at(DMB_OUTPUT_VIBRATION, load.place, out == 0 ? DMB_X : DMB_Z);
+            const double frequency = w / (2.0 * PI);
+            double complex value;
+            transfer(&s, NULL, &force, &moved, &frequency, 1, &value);
+            check_below("  displacement by a force", cabs(value - want[out][in]) / fabs(want[0][0]), 1e-9);
+        }
+    rig_close(&s);
+}
+
+static void body_pushed_along_the_hole(void **state)
+{
+    (void)state;
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        check_pushed(sign, 2000.0);
+        check_pushed(sign, -9000.0);
+    }
+}
+
+/* ---- String that lies in a bend ---------------------------------------------------------------------------------- */
+
+/* Pipes on the low side of a bend, pushed along it by a load or by a bit at their end; undamped. */
+static rig open_lying(uint32_t pipes, double radius, int bit, double push)
+{
+    const double length = 1.5 * pipes + 10.0, survey[6] = {0.0, 0.5 * PI, 0.0, length, 0.5 * PI, length / radius};
+    dmb_wall_def wall = s1_hole();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_bit_def drill = dmb_bit_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    wall.friction_law = DMB_FRICTION_NONE;
+    wall.restitution = 1.0;
+    wall.survey = survey;
+    wall.survey_count = 2;
+    (void)add_wall(&s, &wall);
+    string.start_free = DMB_FREE_NONE;
+    drill.string = pipe.string = add_string(&s, &string);
+    pipe.damping_time = 0.0;
+    (void)add_pipes(&s, &pipe, pipes);
+    drill.load = add_constant(&s, push);
+    load.frame = DMB_FRAME_HOLE;
+    load.place = dmb_station(pipe.string, pipes - 1, 1.0);
+    load.force[0] = -push;
+    if (bit)
+        must_model(&s, dmb_model_add_bit(s.model, &drill, NULL));
+    else
+        (void)add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    return s;
+}
+
+/* Undamped modes by the symmetric part and refined, and by the general iteration of damped ones, all without damping:
+ * dense and sparse, weak and stronger asymmetry. */
+static void string_in_a_bend(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rig s = open_lying(k & 1 ? 60 : 20, k & 2 ? 40.0 : 1500.0, k == 1 || k == 2, k & 2 ? 5e4 : 1e4);
+        dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 10), *general = lowest_modes(&s, DMB_MODES_DAMPED, 10);
+        double worst = 0.0;
+        tell("string in a bend: asymmetry", info_of(modes).asymmetry);
+        assert_true(info_of(modes).asymmetry > 1e-9);
+        assert_int_equal(info_of(modes).count, 10);
+        for (uint32_t i = 0; i < 10; i++)
+            worst = fmax(worst, fabs(frequency_at(modes, i) / frequency_at(general, i) - 1.0));
+        check_below("  modes by the general iteration", worst, 1e-9);
+        check_below("  residual", info_of(modes).residual, 1e-9);
+        dmb_modes_destroy(&modes);
+        dmb_modes_destroy(&general);
+        rig_close(&s);
+    }
+}
+
+/* Modes that crowd, which the general iteration does not resolve: as many as asked for. */
+static void long_string_in_a_bend(void **state)
+{
+    (void)state;
+    rig s = open_lying(300, 1500.0, 1, 1e4);
+    dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 10);
+    assert_true(info_of(modes).asymmetry > 1e-9);
+    assert_int_equal(info_of(modes).count, 10);
+    check_below("300 pipes in a bend: residual of 10 modes", info_of(modes).residual, 1e-9);
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
 /* ---- Damper that spins ------------------------------------------------------------------------------------------- */
 
 #define AXIAL 1.2       /* [kg m2] of the rotor */
@@ -106,7 +267,7 @@ static void load_on_an_arc(void **state)
 
 /* A rotor on a ball joint to a plate that is fixed. Coordinates of a joint are relative to its frame a: the plate's, or
  * the rotor's, whose damper then spins with it. */
-static rig open_rotor(int spins, double spin)
+static rig open_ball_rotor(int spins, double spin)
 {
     dmb_body_def plate = dmb_body_def_default(), rotor = dmb_body_def_default();
     rig s;
@@ -134,7 +295,7 @@ static void check_damper(int spins, double spin)
     const double complex b = DAMPING - AXIAL * spin * (double complex)_Complex_I;
     const double complex c = STIFFNESS - (spins ? spin * DAMPING : 0.0) * (double complex)_Complex_I;
     const double complex root = csqrt(b * b - 4.0 * ACROSS * c);
-    rig s = open_rotor(spins, spin);
+    rig s = open_ball_rotor(spins, spin);
     dmb_modes_options options = dmb_modes_options_default();
     options.kind = DMB_MODES_DAMPED;
     options.select = DMB_MODES_ALL;
@@ -164,8 +325,9 @@ static void dampers_of_a_rotor(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weight_on_an_arc),
-        cmocka_unit_test(load_on_an_arc),
+        cmocka_unit_test(weight_on_an_arc),          cmocka_unit_test(load_on_an_arc),
+        cmocka_unit_test(body_pulled_to_the_centre), cmocka_unit_test(body_pushed_along_the_hole),
+        cmocka_unit_test(string_in_a_bend),          cmocka_unit_test(long_string_in_a_bend),
         cmocka_unit_test(dampers_of_a_rotor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* Modal analysis (dmb_analysis_modes): options, checks, selection of method, and summary of all modes. Order:
  *
  *   search_modes    checks (equilibrium, constant coefficients, count), dmb_modes_find, refinement, check of every mode
+ *   find_weakly_skew   undamped modes of a K that is weakly non-symmetric: those of its symmetric part, refined
  *   dmb_modes_find  1. rigid-body motions (modes_rigid.c), separated if K is symmetric and without damping of them
  *                   2. shift (dmb_modes_choose_shift), unless all modes are requested
  *                   3. LOWEST: modes_lowest.c;  ALL: dense (modes_dense.c);  BAND: find_band
@@ -17,6 +18,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "math/dense.h"
 #include "math/real.h"
 #include "model/field_check.h"
 #include "sim/access.h"
@@ -39,8 +41,8 @@ static void measure(dmb_mode_search *search)
     search->modes->info.coordinates = linear->coordinates;
     search->modes->info.asymmetry = dmb_linear_asymmetry(linear, search->work);
     if (search->options->kind == DMB_MODES_UNDAMPED) dmb_linear_clear(search->linear, &search->linear->damping);
-    search->general =
-        search->options->kind == DMB_MODES_DAMPED || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY);
+    search->symmetric = search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY;
+    search->general = search->options->kind == DMB_MODES_DAMPED || !search->symmetric;
 }
 
 static int32_t read_options(const dmb_modes_options *given, dmb_modes_options *out, dmb_message *message)
@@ -126,6 +128,60 @@ static int32_t finish(dmb_mode_search *search)
     return status;
 }
 
+static int32_t find_and_finish(dmb_mode_search *search)
+{
+    const int32_t status = dmb_modes_find(search);
+    return status < 0 ? status : finish(search);
+}
+
+/* Undamped modes by the symmetric part H of K first, whose modes counts confirm; K then refines each of them. The skew
+ * part changes s^2 by its square, unless two modes are nearer than it (eq:modes.skew). */
+static int32_t find_by_symmetric_part(dmb_mode_search *search)
+{
+    dmb_linear_matrix K;
+    int32_t status = dmb_modes_keep_symmetric(search->linear, &K);
+    if (status < 0) return status;
+    search->symmetric = 1;
+    search->general = 0;
+    status = dmb_modes_find(search);
+    dmb_modes_put_back(search->linear, &K);
+    return status < 0 ? status : finish(search);
+}
+
+/* Modes that the refinement may have found twice: relative distance of their sizes, and least cosine of their shapes.
+ */
+#define DMB_TWIN_NEAR 1e-9
+#define DMB_TWIN_COSINE 0.5
+
+/* 1: two modes next to each other in the order have one root and one shape. */
+static int has_twins(dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    const size_t rows = modes->rows;
+    for (uint32_t k = 1; k < modes->count; k++) {
+        const double *x = modes->re + rows * k, size = dmb_modes_size(modes, k);
+        if (modes->rigid[k] || size - dmb_modes_size(modes, k - 1) > DMB_TWIN_NEAR * size) continue;
+        dmb_linear_multiply(search->linear, &search->linear->mass, x - rows, search->work);
+        if (fabs(dmb_dot(rows, x, search->work)) > DMB_TWIN_COSINE) return 1;
+    }
+    return 0;
+}
+
+/* If a mode cannot be refined, as where the skew part joins two: the general iteration. */
+static int32_t find_weakly_skew(dmb_mode_search *search)
+{
+    const dmb_mode_search before = *search;
+    const int32_t status = find_by_symmetric_part(search);
+    if (dmb_is_final(status) || status == DMB_ERR_NO_MEMORY || (status == DMB_OK && !has_twins(search))) return status;
+    if (search->rigid != NULL) dmb_modes_forget_rigid(search);
+    *search = before;
+    search->modes->count = search->modes->info.rigid = 0;
+    search->modes->info.residual = 0.0;
+    dmb_message_clear(search->message);
+    const int32_t again = dmb_modes_reserve(search->modes, search->modes->capacity + 1, 1);
+    return again < 0 ? again : find_and_finish(search);
+}
+
 static int32_t search_modes(dmb_mode_search *search)
 {
     int32_t status = check_balance(search);
@@ -133,8 +189,9 @@ static int32_t search_modes(dmb_mode_search *search)
     if (status >= 0) status = check_count(search);
     if (status < 0) return status;
     measure(search);
-    status = dmb_modes_find(search);
-    return status < 0 ? status : finish(search);
+    const int undamped = search->options->kind == DMB_MODES_UNDAMPED;
+    const int weak = !search->symmetric && search->modes->info.asymmetry <= DMB_MODES_WEAK;
+    return undamped && weak ? find_weakly_skew(search) : find_and_finish(search);
 }
 
 /* Checks that coefficients are constant: modes do not exist if coefficients change with the rotation of parts. */
@@ -244,8 +301,8 @@ static int32_t set_rigid_apart(dmb_mode_search *search)
 {
     const int32_t status = dmb_modes_find_rigid(search);
     if (status < 0 || search->rigid_count == 0) return status;
-    search->apart = search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY &&
-                    (search->options->kind == DMB_MODES_UNDAMPED || dmb_modes_rigid_undamped(search));
+    search->apart =
+        search->symmetric && (search->options->kind == DMB_MODES_UNDAMPED || dmb_modes_rigid_undamped(search));
     return DMB_OK;
 }
 

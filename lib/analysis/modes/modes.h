@@ -9,6 +9,8 @@
 
 /* [-] Largest asymmetry of K, relative to its diagonal, that counts as rounding. */
 #define DMB_MODES_ASYMMETRY 1e-9
+/* [-] Largest asymmetry at which undamped modes are those of the symmetric part first (eq:modes.skew). */
+#define DMB_MODES_WEAK 1e-5
 /* [-] Rounding of K_ii/M_ii, relative. */
 #define DMB_NOISE DBL_EPSILON
 /* [-] The same for each multiple of a part's size in its distance from the origin, where poses are rounded. */
@@ -39,6 +41,7 @@ typedef struct dmb_mode_search {
     double *coordinate_mass;        /* [kg, kg m2] approximate diagonal of R^T M R, shape (coordinates) */
     double noise;                   /* [1/s2] rounding level of an eigenvalue 0: largest K_ii/M_ii times an epsilon */
     int32_t general;                /* 1: damped, or K not symmetric */
+    int32_t symmetric;              /* 1: K is symmetric, or its symmetric part is in its place */
     int32_t pinned;                 /* 1: the factors are those of K with pinned rigid-body motions, and p = 0 */
     double shift;                   /* shift of the sparse method: of s^2; of s if general */
     double *rigid, *rigid_momentum; /* all rigid-body motions r, r^T M r = I, and M r, shape (rigid_count, rows) */
@@ -69,6 +72,11 @@ typedef struct dmb_mode_defect {
  * the 24 lowest otherwise. Rigid-body motions are excluded. -INFINITY if there is no mode. Memory, errors and messages
  * as dmb_analysis_modes. */
 int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *message, double root[2]);
+
+/* Replaces the stiffness by its symmetric part; *K: the stiffness, in memory that dmb_modes_put_back frees.
+ * DMB_ERR_NO_MEMORY: nothing has changed. */
+int32_t dmb_modes_keep_symmetric(dmb_linear *linear, dmb_linear_matrix *K);
+void dmb_modes_put_back(dmb_linear *linear, dmb_linear_matrix *K);
 
 /* Creates a result without modes about the state of a sim; dmb_modes_destroy frees it. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes);

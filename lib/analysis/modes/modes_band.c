@@ -369,10 +369,11 @@ static int is_beside(dmb_mode_search *search, double high, double sign, double d
     return dmb_linear_negative(search->linear, d / (high * high), sign, d) == 0;
 }
 
+/* A weak skew part of K moves real parts by less than DMB_STRIP_LEAST of the edge (eq:modes.skew). */
 int dmb_modes_find_strip(dmb_mode_search *search, double high, double strip[2])
 {
     const double edge = DMB_TWO_PI * high;
-    if (search->linear->scene.cluster_count > 0 || search->modes->info.asymmetry > DMB_MODES_ASYMMETRY) return 0;
+    if (search->linear->scene.cluster_count > 0 || search->modes->info.asymmetry > DMB_MODES_WEAK) return 0;
     if (dmb_linear_negative(search->linear, 1.0, 0.0, DMB_RIGID_NOISE * search->noise) > 0) return 0;
     for (int side = 0; side < 2; side++) {
         double d = DMB_STRIP_WIDEST * edge;

@@ -271,7 +271,7 @@ static void uncouple_motions(dmb_dense *d)
 /* A skew part at the rounding level is omitted. */
 static void couple_stiffness(const dmb_mode_search *search, dmb_dense *d)
 {
-    if (search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)
+    if (search->symmetric)
         memset(d->coupling, 0, d->n * d->n * sizeof(double));
     else
         couple(d);

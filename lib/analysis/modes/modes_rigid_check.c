@@ -144,7 +144,7 @@ static int32_t leave_vibrations(const rigid_check *c)
     if (K == NULL) return DMB_ERR_NO_MEMORY;
     double *A = K + m * m, *values = A + m * m, *lapack = values + m;
     project(c, K);
-    make_symmetric(m, search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY, K, A);
+    make_symmetric(m, search->symmetric, K, A);
     const int failed = dmb_eigen_symmetric(m, A, values, lapack) != 0;
     if (!failed) keep_unresisted(c, A, lapack + work);
     dmb_release(allocator, K, bytes);

@@ -22,7 +22,8 @@ int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dm
 }
 
 /* A search without load steps, slip or spins: full loads, tangent with every residual. Strategies change these fields
- * afterwards. */
+ * afterwards. Forces that turn with the depth of a bent hole make a stiffness non-symmetric without consequence for
+ * stability (eq:modes.skew). */
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
 {
     memset(search, 0, sizeof *search);
@@ -32,6 +33,7 @@ void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static
     search->evaluation.time = sim->clock->time;
     search->evaluation.load_factor = 1.0;
     search->evaluation.tangent = 1;
+    search->evaluation.turn_halves = 1;
     search->unbalanced = DMB_NONE;
 }
 

@@ -24,16 +24,19 @@ typedef struct bit_motion {
     double advance, speed, angle, spin;
     double along[6], about[6]; /* body-frame directions of both at the node: speed = along . v, spin = about . v */
     double axis[3];            /* the axis in the body frame */
+    double bend[3];            /* [1/m] its change with the depth, likewise; 0 on axial-torsional nodes */
+    double depth_by;           /* [-] J: depth of the closest point of the axis by advance of a point beside it */
 } bit_motion;
 
-/* Axis of the hole at the bit, world frame; without a hole the axis of its initial pose. Returns the advance [m] since
- * time 0. In a straight hole, or without one, the advance is a scalar product of the displacement, without the digits
- * that the difference of two positions would lose. */
+/* Axis of the hole at the bit into m->axis, still in the world frame; without a hole the axis of its initial pose. Its
+ * bend and J in a bent hole. Returns the advance [m] since time 0. In a straight hole, or without one, the advance is a
+ * scalar product of the displacement, without the digits that the difference of two positions would lose. */
 static double locate(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_bit *bit, const double R[9],
-                     uint32_t *segment, double tangent[3])
+                     uint32_t *segment, bit_motion *m)
 {
+    double *tangent = m->axis;
     const uint32_t node = bit->node;
-    double start[9], arm[3], moved[3], x[3], point[3], s = scene->reference_depth[node];
+    double start[9], arm[3], moved[3], x[3], point[3], bend[3], unused[3], s = scene->reference_depth[node];
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, start);
     dmb_vec3_set(start[0], start[3], start[6], tangent);
     dmb_vec3_set(R[0], R[3], R[6], arm);
@@ -47,6 +50,10 @@ static double locate(const dmb_scene *scene, const dmb_configuration *c, const d
     dmb_vec3_add(scene->reference_position + 3 * node, c->displacement + 3 * node, x);
     dmb_vec3_axpy(bit->arm, arm, x);
     dmb_hole_project(&scene->hole, x, &s, segment, point, tangent);
+    dmb_hole_frame(&scene->hole, s, unused, NULL, bend);
+    dmb_vec3_sub(x, point, x);
+    m->depth_by = 1.0 / (1.0 - dmb_vec3_dot(x, bend));
+    dmb_mat3_tvec(R, bend, m->bend);
     return s - scene->reference_depth[node] - bit->arm;
 }
 
@@ -59,6 +66,7 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const 
     double v[6], tangent[3];
     memset(m, 0, sizeof *m);
     dmb_node_vector(scene, c, bit->node, c->velocity, v);
+    m->depth_by = 1.0;
     m->about[3] = 1.0;
     m->spin = v[3];
     m->angle = c->turn[bit->node];
@@ -68,7 +76,8 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const 
         m->speed = v[0];
         return;
     }
-    m->advance = locate(scene, c, bit, R, segment, tangent);
+    m->advance = locate(scene, c, bit, R, segment, m);
+    dmb_vec3_copy(m->axis, tangent);
     dmb_mat3_tvec(R, tangent, m->axis);
     dmb_vec3_copy(m->axis, m->along);
     dmb_arm_wrench(bit->arm, m->along);
@@ -164,19 +173,19 @@ static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_mo
     out->dW_dU = out->dW_dPhi = out->dT_dU = out->dT_dPhi = 0.0;
 }
 
-/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load rotates with the
- * body. */
+/* K -= -(along dW + about dT) x (dU J along + dPhi about), C likewise with V and Omega; and the axial force rotates
+ * with the body, and in a bent hole with the depth (eq:motion.turn). J = ds/dx of a point beside the axis. */
 static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
-                        const double force[6])
+                        double axial)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_bit *bit = sim->scene->bits + k;
-    double K[36], C[36], skew[9], w[6];
+    double K[36], C[36], force[3], skew[9], w[6];
     dmb_mat6_zero(K);
     dmb_mat6_zero(C);
-    dmb_mat6_add_outer(r->dW_dU, m->along, m->along, K);
+    dmb_mat6_add_outer(m->depth_by * r->dW_dU, m->along, m->along, K);
     dmb_mat6_add_outer(r->dW_dPhi, m->along, m->about, K);
-    dmb_mat6_add_outer(r->dT_dU, m->about, m->along, K);
+    dmb_mat6_add_outer(m->depth_by * r->dT_dU, m->about, m->along, K);
     dmb_mat6_add_outer(r->dT_dPhi, m->about, m->about, K);
     dmb_mat6_add_outer(evaluation->velocity_factor * r->dW_dV, m->along, m->along, C);
     dmb_mat6_add_outer(evaluation->velocity_factor * r->dW_dOmega, m->along, m->about, C);
@@ -191,6 +200,7 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
             }
         return;
     }
+    dmb_vec3_scale(axial, m->axis, force);
     dmb_skew(force, skew); /* axial force in body axes: d(R^T f) = (R^T f)~ dtheta, also at the arm */
     dmb_mat6_add_block(-1.0, skew, 0, 1, K);
     for (int j = 0; j < 3; j++) {
@@ -199,6 +209,9 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
         K[24 + 3 + j] -= w[4];
         K[30 + 3 + j] -= w[5];
     }
+    dmb_vec6_copy((const double[6]){m->bend[0], m->bend[1], m->bend[2], 0.0, 0.0, 0.0}, w);
+    dmb_arm_wrench(bit->arm, w);
+    dmb_add_turn(evaluation, -axial * m->depth_by, w, m->along, K);
     dmb_mat6_axpy(1.0, K, dmb_stiffness_of(sim, bit->node));
     if (evaluation->dynamic) dmb_mat6_axpy(1.0, C, dmb_inertia_of(sim, bit->node));
 }
@@ -234,9 +247,7 @@ static void assemble_bit(dmb_evaluation *evaluation, uint32_t k)
     const double force[4] = {-r.weight_on_bit, -r.torque_on_bit, 0.0, 0.0}, speed[4] = {m.speed, m.spin, 0.0, 0.0};
     memcpy(sim->trial.bit_force + 4 * (size_t)k, force, sizeof force);
     memcpy(sim->trial.bit_speed + 4 * (size_t)k, speed, sizeof speed);
-    if (!evaluation->tangent) return;
-    dmb_vec3_scale(axial, m.axis, wrench);
-    add_tangent(evaluation, k, &m, &r, wrench);
+    if (evaluation->tangent) add_tangent(evaluation, k, &m, &r, axial);
 }
 
 /* ---- Cutting sideways -------------------------------------------------------------------------------------------- */

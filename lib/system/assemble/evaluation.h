@@ -35,6 +35,8 @@ typedef struct dmb_evaluation {
     int32_t given; /* 1: multipliers of the trial are unknowns and used as they are; 0: they balance the residual */
     int32_t assembling;   /* 1: initial coordinates of joints are also equations, couplings and joint drives are not */
     int32_t slipping;     /* statics: friction acts as at the speed slip[] */
+    int32_t turn_halves;  /* statics: the symmetric part alone of the stiffness of forces that turn with the depth
+                             (eq:motion.turn) */
     double wall_softness; /* statics: factor by which the wall is softer at contact points; 0: 1 */
     double frictionless;  /* [-] statics: fraction of contact friction that is omitted; 0: none */
     double slip[2];       /* [m/s, rad/s] along the hole, of rotation */

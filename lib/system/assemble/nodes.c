@@ -279,6 +279,60 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
     }
 }
 
+/* A load in the axes of a bent hole turns with the depth of its node: the derivative of its wrench by the depth, in
+ * body axes of the load's point, R^T (rate x F), and of the depth by displacements of the node, J R^T t as in
+ * pull_six_dof (eq:motion.turn). 0: it does not turn. */
+static int turn_with_depth(const dmb_sim *sim, const dmb_scene_load *load, const double point_axes[9], double factor,
+                           double by_depth[6], double depth_by[3])
+{
+    const dmb_scene *scene = sim->scene;
+    double R[9], body[9], u[3], x[3], point[3], t[3], bend[3], rate[3], s;
+    if (load->frame != DMB_FRAME_HOLE || dmb_hole_is_straight(&scene->hole)) return 0;
+    dmb_node_pose(scene, &sim->trial, load->node, body, u);
+    dmb_vec3_add(scene->reference_position + 3 * (size_t)load->node, u, x);
+    uint32_t segment = dmb_node_segment(scene, &sim->now, load->node, 0.0, x);
+    dmb_hole_project(&scene->hole, x, &s, &segment, point, t);
+    dmb_hole_frame_rotation(&scene->hole, s, R);
+    dmb_hole_frame(&scene->hole, s, u, NULL, bend);
+    dmb_hole_frame_rate(t, bend, rate);
+    for (int k = 0; k < 6; k += 3) {
+        double f[3], turned[3];
+        dmb_mat3_vec(R, k == 0 ? load->force : load->moment, f);
+        dmb_vec3_scale(factor, f, f);
+        dmb_vec3_cross(rate, f, turned);
+        dmb_mat3_tvec(point_axes, turned, by_depth + k);
+    }
+    dmb_vec3_sub(x, point, x);
+    dmb_mat3_tvec(body, t, depth_by);
+    dmb_vec3_scale(1.0 / (1.0 - dmb_vec3_dot(x, bend)), depth_by, depth_by);
+    return 1;
+}
+
+void dmb_add_turn(const dmb_evaluation *evaluation, double factor, const double by_depth[6], const double depth_by[6],
+                  double K[36])
+{
+    const double part = evaluation->turn_halves ? 0.5 * factor : factor;
+    dmb_mat6_add_outer(part, by_depth, depth_by, K);
+    if (evaluation->turn_halves) dmb_mat6_add_outer(part, depth_by, by_depth, K);
+}
+
+/* -dw/dq of a load at a six-DOF node: d(R^T f) = (R^T f)~ dtheta, and the turn of the hole's axes with the depth. w:
+ * wrench at the load's point. */
+static void add_load_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor, const double w[6])
+{
+    const dmb_sim *sim = evaluation->sim;
+    double K[36] = {0.0}, by_depth[6], depth_by[6] = {0.0}, body[9], unused[3];
+    dmb_mat6_add_skew(1.0, w, 0, 1, K);
+    dmb_mat6_add_skew(1.0, w + 3, 1, 1, K);
+    dmb_beam_block_to_nodes(load->arm, 0.0, K);
+    dmb_node_pose(sim->scene, &sim->trial, load->node, body, unused);
+    if (turn_with_depth(sim, load, body, factor, by_depth, depth_by)) {
+        dmb_arm_wrench(load->arm, by_depth);
+        dmb_add_turn(evaluation, 1.0, by_depth, depth_by, K);
+    }
+    dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, load->node));
+}
+
 /* An axial-torsional node in a bend advances along a tangent that turns by the curvature: the components of a load in
  * world axes along and about it change with the depth (eq:motion.weight-along). Those in hole axes do not. */
 static void add_axial_torsional_load_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
@@ -292,28 +346,23 @@ static void add_axial_torsional_load_tangent(dmb_evaluation *evaluation, const d
     K[2] -= factor * dmb_vec3_dot(load->moment, bend);
 }
 
-/* A load in hole axes on a six-DOF node also turns with the place of its node along the hole; that change is not in the
- * tangent. */
 static void assemble_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
 {
     dmb_sim *sim = evaluation->sim;
-    double w[6], v[6], K[36];
+    double w[6], v[6], frame[9];
+    factor *= evaluation->load_factor;
     if (load->point != DMB_NONE) {
-        frame_of_load(sim, &sim->trial, load, K);
-        dmb_assemble_point_load(evaluation, load, evaluation->load_factor * factor, K);
+        frame_of_load(sim, &sim->trial, load, frame);
+        dmb_assemble_point_load(evaluation, load, factor, frame);
         return;
     }
-    wrench_of(sim, load, evaluation->load_factor * factor, w);
-    if (evaluation->tangent && load->frame != DMB_FRAME_BODY &&
-        sim->scene->layout.size[load->node] == DMB_NODE_SIX_DOF) {
-        dmb_mat6_zero(K); /* d(R^T f) = (R^T f)~ dtheta */
-        dmb_mat6_add_skew(1.0, w, 0, 1, K);
-        dmb_mat6_add_skew(1.0, w + 3, 1, 1, K);
-        dmb_beam_block_to_nodes(load->arm, 0.0, K);
-        dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, load->node));
+    wrench_of(sim, load, factor, w);
+    if (evaluation->tangent && load->frame != DMB_FRAME_BODY) {
+        if (sim->scene->layout.size[load->node] == DMB_NODE_SIX_DOF)
+            add_load_tangent(evaluation, load, factor, w);
+        else
+            add_axial_torsional_load_tangent(evaluation, load, factor);
     }
-    if (evaluation->tangent && sim->scene->layout.size[load->node] == DMB_NODE_AXIAL_TORSIONAL)
-        add_axial_torsional_load_tangent(evaluation, load, evaluation->load_factor * factor);
     dmb_arm_wrench(load->arm, w);
     dmb_apply_wrench(sim, load->node, w);
     if (!evaluation->dynamic) return;
@@ -330,10 +379,28 @@ void dmb_assemble_loads(dmb_evaluation *evaluation)
 
 /* ---- Loads at points --------------------------------------------------------------------------------------------- */
 
+/* The turn of the hole's axes with the depth of the load's node, a node of the point. */
+static void add_turn(const dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
+                     const dmb_point_motion *m, dmb_force_tangent *t)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    double by_depth[6], depth_by[3], values[DMB_POINT_COLUMNS] = {0.0};
+    double row[DMB_CONSTRAINT_COLUMNS] = {0.0}, column[DMB_CONSTRAINT_COLUMNS] = {0.0};
+    if (!turn_with_depth(evaluation->sim, load, m->R, factor, by_depth, depth_by)) return;
+    for (uint32_t n = 0; n < m->nodes; n++)
+        if (m->node[n] == load->node) dmb_vec3_copy(depth_by, values + 6 * n);
+    dmb_force_tangent_row(scene, t, m, by_depth, row);
+    dmb_force_tangent_columns(scene, t, m, values, column);
+    const double other = evaluation->turn_halves ? 0.5 : 0.0;
+    for (uint32_t r = 0; r < t->columns; r++)
+        for (uint32_t c = 0; c < t->columns; c++)
+            t->K[(size_t)r * t->columns + c] -= (1.0 - other) * row[r] * column[c] + other * column[r] * row[c];
+}
+
 /* By displacements of the nodes, the body rotating under a dead load, d(R^T f) = (R^T f) x theta, and by the change of
  * the map: -map^T (w_f x theta; w_m x theta) - d(map^T) w. */
-static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, const dmb_point_motion *m,
-                        const double w[6])
+static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
+                        const dmb_point_motion *m, const double w[6])
 {
     const dmb_scene *scene = evaluation->sim->scene;
     dmb_force_tangent t;
@@ -353,6 +420,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, 
         for (uint32_t r = 0; r < t.columns; r++)
             for (uint32_t c = 0; c < t.columns; c++) t.K[(size_t)r * t.columns + c] -= move[r] * change[c];
     }
+    add_turn(evaluation, load, factor, m, &t);
     dmb_force_tangent_add(evaluation, DMB_NONE, DMB_BY_DISPLACEMENT, &t);
 }
 
@@ -388,6 +456,6 @@ void dmb_assemble_point_load(dmb_evaluation *evaluation, const dmb_scene_load *l
     dmb_point_motion_of(sim->scene, &sim->trial, sim->scene->load_points + load->point, &m);
     point_wrench(load, factor, frame, m.R, w);
     dmb_point_apply(sim, &m, w);
-    if (evaluation->tangent) add_tangent(evaluation, load, &m, w);
+    if (evaluation->tangent) add_tangent(evaluation, load, factor, &m, w);
     if (evaluation->dynamic) evaluation->power[DMB_POWER_LOADS] += dmb_vec6_dot(w, m.V);
 }
