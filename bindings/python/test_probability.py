@@ -270,13 +270,16 @@ high = 1.5
 correlation_time = "1 s"
 """
             draw = Draw(scene.loads(text))
-            values = draw.values(np.random.default_rng(3).standard_normal(draw.dimension))
+            z = np.random.default_rng(3).standard_normal(draw.dimension)
+            values = draw.values(z)
             made = scene.loads(text, changes=draw.overrides(values))
-            one, _, times = draw.processes[0]
+            one, how, times = draw.processes[0]
+            factors = draw.translations[one.name](how(z))
+            self.assertAlmostEqual(draw.mean(one.name, values[one.name]), factors.mean(), 9)
             base, product = (next(arguments for name, arguments in rig.model.calls if name == "add_time_function")
                              for rig in (draw.scene, made))
             for time in np.linspace(0.0, 4.0, 601):
-                known = value_of_segments(base, time) * np.interp(time, times, values[one.name])
+                known = value_of_segments(base, time) * np.interp(time, times, factors)
                 self.assertLess(abs(value_of_segments(product, time) - known), 0.006 * 15e3, (number, time))
 
     def test_time_function_as_the_library_has_it(self):

@@ -110,6 +110,54 @@ class RodsTest(FolderTest):
         self.assertIn("must be > 0", self.call("rod-by-rod", self.scene, "--make-up", "0 N m", status=2))
         self.assertIn("--make-up", self.call("rod-by-rod", self.scene, "--make-up", "2 kN", status=2))
 
+    def test_each_string_by_its_own_drives_and_bit(self):
+        """Two strings have the results of scenes with one of them: load and torque of the bit, rotation and feed are
+        those of the string, whichever is described first."""
+        begin = SCENE.index("[[time_function]]")
+        other = (SCENE[begin:].replace('"main"', '"other"').replace("5 kN", "3 kN").replace(
+            '"bit"', '"other bit"').replace('"94 mm"', '"90 mm"').replace('"feed"', '"other feed"').replace(
+                '"10 mm/s"', '"4 mm/s"').replace('"head"', '"other head"').replace("73 mm", "76 mm"))
+        other = other.replace('[[bit]]\n', '[[bit]]\nstring = "other"\n').replace(
+            '[[drive]]\n', '[[drive]]\npart = "other"\n').replace('"turning"', '"slower"').replace("100 rpm", "40 rpm")
+        named = SCENE[begin:].replace('[[bit]]\n', '[[bit]]\nstring = "main"\n').replace(
+            '[[drive]]\n', '[[drive]]\npart = "main"\n')
+        alone = {}
+        for name, text in (("main", named), ("other", other)):
+            self.scene = self.write("one.toml", SCENE[:begin] + text)
+            _, alone[name] = self.results("torque-drag", "--depths", "3")
+            self.assertEqual(list(alone[name]["torque_drag"]), [name])
+            _, alone[name + " rods"] = self.results("rod-by-rod")
+        rest = named.index("[[bit]]")  # of the other string are the first bit and the first drives of the file
+        for text in (other + named, named[:rest] + other + named[rest:]):
+            self.scene = self.write("both.toml", SCENE[:begin] + text)
+            said, both = self.results("torque-drag", "--depths", "3")
+            _, rods = self.results("rod-by-rod")
+            for name, load in (("main", "5 kN"), ("other", "3 kN")):
+                self.assertIn(f"{name}: weight on bit {load}", said)
+                self.assertEqual(both["torque_drag_by_depth"][name], alone[name]["torque_drag_by_depth"][name])
+                self.assertEqual(both["operations_by_string"][name], alone[name]["operations"])
+                self.assertEqual(rods["rod_by_rod"][name], alone[name + " rods"]["rod_by_rod"][name])
+        # of the first string only: a study has the same demands with and without the other one
+        study = """[variability]
+question = "torque-drag"
+[[variability.scatter]]
+name = "friction"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+distribution = "uniform"
+low = 0.29
+high = 0.31
+[[failure]]
+kind = "rig-torque"
+head = "head"
+limit = "1 kN m"
+"""
+        needs("scipy")
+        from drillmbd.probability.sample import SceneSample
+        first, = SceneSample(SCENE[:begin] + named + study)(0, [0.3]).demands
+        for text in (named + other, named[:rest] + other + named[rest:]):
+            found, = SceneSample(SCENE[:begin] + text + study)(0, [0.3]).demands
+            self.assertAlmostEqual(found / first, 1.0, 9)
+
     def test_lock_up(self):
         """A string that locks up is over any limit, and without one too."""
         loads = {key: rig_limits.Load(math.inf if key == "push" else 0.0, "slide")

@@ -25,12 +25,15 @@ class Operating:
     estimated: bool = False             #: torque_on_bit is an estimate
 
 
-def operating(scene: Scene) -> Operating:
-    """Of the first drives along and about x, and the first bit."""
+def operating(scene: Scene, string: int | None = None) -> Operating:
+    """Of the first drives along and about x, and the first bit. string: the number of a string, of whose drives and bit
+    it is then; drives of joints and bodies may turn any string."""
     time_functions: list[Any] = [segments for name, segments in scene.model.calls if name == "add_time_function"]
     found = Operating()
     for name, arguments in scene.model.calls:
         fields = arguments[0] if arguments and isinstance(arguments[0], dict) else {}
+        if string is not None and not _is_of(fields.get("string" if name == "add_bit" else "part"), string):
+            continue
         if name == "add_drive" and fields.get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD:
             value = _value(time_functions, fields.get("time_function"))
             if fields.get("component", enums.X) == enums.RX and found.rotation is None:
@@ -41,6 +44,13 @@ def operating(scene: Scene) -> Operating:
             found.weight_on_bit = _ahead(time_functions, fields.get("load"))
             _estimate(found, fields)
     return found
+
+
+def _is_of(part: Any, string: int) -> bool:
+    """Whether a drive or bit with this part belongs to a string; without one to the first."""
+    if not part:
+        return string == 0
+    return bool(part.index >> 24 != enums.PART_STRING or part.index & 0xFFFFFF == string)
 
 
 def _value(time_functions: list[Any], part: Any) -> float | None:
@@ -66,9 +76,11 @@ def operations_of(plan: Operating) -> list[_structs.Operation]:
     return found
 
 
-def with_weight(scene: Scene, plan: Operating, weight: float) -> Operating:
-    """The plan with another weight on the bit [N], and the torque that belongs to it by the same estimate."""
-    bit: dict[str, Any] = next((arguments[0] for name, arguments in scene.model.calls if name == "add_bit"), {})
+def with_weight(scene: Scene, plan: Operating, weight: float, string: int) -> Operating:
+    """The plan of a string, by its number, with another weight on the bit [N], and the torque that belongs to it by the
+    same estimate."""
+    bit: dict[str, Any] = next((arguments[0] for name, arguments in scene.model.calls if name == "add_bit"
+                                and _is_of(arguments[0].get("string"), string)), {})
     found = Operating(plan.rotation, plan.feed, weight)
     _estimate(found, bit)
     return found

@@ -12,7 +12,7 @@ from .errors import Usage
 from .remade import number_of
 from .rig_limits import QUANTITIES, Load, loads_at, unknown
 from .scene import Scene
-from .torque_drag import WORDS, depths_of, settings_of
+from .torque_drag import WORDS, depths_of, settings_of_strings
 from .unit_systems import Units
 from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, OK, OVER
 
@@ -58,19 +58,17 @@ class Row:
 
 def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Loads for each number of rods of each string."""
-    settings = settings_of(scene, options, out.units)
+    every = settings_of_strings(scene, options, out)
     limits = {key: scene.limits[key] for key, _, _ in QUANTITIES if key in scene.limits}
     if options.make_up is not None:
         limits[MAKE_UP] = quantity(options.make_up, "N*m", "--make-up")
         if not limits[MAKE_UP] > 0.0:
             raise Usage(f"--make-up {options.make_up}: must be > 0")
-    for text in settings.notes:
-        out.say(text)
     out.say("engine: the soft string of torque-drag, without bending stiffness and vibration; the last rods of the "
             "scene go into the hole first")
     out.summary["rod_by_rod"] = {}
     with scene.new_sim() as sim:
-        for name in scene.pipes:
+        for name, settings in every.items():
             string = scene.names[name]
             last = depths_of(sim, string, "1")[0]
             depths = depths_of_rods(lengths_of(scene, string), last)

@@ -54,19 +54,17 @@ def torque_drag(scene: Scene, out: CommandOutput, options: Any) -> int:
     """All results of the soft string by depth and operation."""
     if not scene.pipes:
         raise Usage("torque-drag is about a string, the scene has none")
-    settings = settings_of(scene, options, out.units)
-    out.summary["block_weight_N"] = settings.block_weight
-    out.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
-                                           "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
-                                    for word, one in zip(WORDS.values(), settings.operations)}
-    for text in settings.notes:
-        out.say(text)
+    every = settings_of_strings(scene, options, out)
+    first = every[next(iter(every))]
+    out.summary["block_weight_N"], out.summary["operations"] = first.block_weight, _summary_of(first)
+    if len(every) > 1:
+        out.summary["operations_by_string"] = {name: _summary_of(one) for name, one in every.items()}
     if options.measured is not None:
-        settings.series, remarks = measured.read(options.measured)
+        first.series, remarks = measured.read(options.measured)
         for text in remarks:
             out.note_text(f"{options.measured}: {text}")
     with scene.new_sim() as sim:
-        for name in scene.pipes:
+        for name, settings in every.items():
             string = scene.names[name]
             depths = depths_of(sim, string, options.depths, out.units)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
@@ -78,15 +76,30 @@ def torque_drag(scene: Scene, out: CommandOutput, options: Any) -> int:
             hydraulics.write(sim, out, name, found.column("depth"), trip_speed)
             _compare(scene, sim, out, curves, settings)
             broomstick.write(scene, sim, out, curves, settings)
-            settings.series = {}
     return out.finish()
 
 
+def _summary_of(settings: Settings) -> dict[str, dict[str, float]]:
+    return {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
+                   "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
+            for word, one in zip(WORDS.values(), settings.operations)}
+
+
 # ---- Settings --------------------------------------------------------------------------------------------------------
-def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
-    plan, notes = operating(scene), []
+def settings_of_strings(scene: Scene, options: Any, out: CommandOutput) -> dict[str, Settings]:
+    """Of each string by its name, from its own drives and bit; their origins are printed."""
+    every = {name: settings_of(scene, options, out.units, number) for number, name in enumerate(scene.pipes)}
+    for name, one in every.items():
+        for text in one.notes:
+            out.say(text if len(every) == 1 else f"{name}: {text}")
+    return every
+
+
+def settings_of(scene: Scene, options: Any, units: Units, string: int) -> Settings:
+    """Of a string by its number."""
+    plan, notes = operating(scene, string), []
     if options.weight_on_bit is not None:
-        plan = with_weight(scene, plan, _not_below_0(options.weight_on_bit, "N", "--weight-on-bit"))
+        plan = with_weight(scene, plan, _not_below_0(options.weight_on_bit, "N", "--weight-on-bit"), string)
         notes.append(f"weight on bit {units.scaled(plan.weight_on_bit or 0.0, 'N')}, as given")
     elif plan.weight_on_bit:
         notes.append(f"weight on bit {units.scaled(plan.weight_on_bit, 'N')}, the largest load of the bit in the scene")

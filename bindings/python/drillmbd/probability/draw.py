@@ -174,7 +174,8 @@ class Draw:
 
     # ---- One sample -------------------------------------------------------------------------------------------------
     def values(self, z: Any) -> dict[str, Any]:
-        """Of each thing that varies by its name: a number, or an array along string, hole or time."""
+        """Of each thing that varies by its name: a number, or an array along string, hole or time; of a process that
+        multiplies a time function at the rows of their product."""
         numpy = need("numpy")
         z = numpy.asarray(z, dtype=float)
         if z.shape != (self.dimension,):
@@ -192,7 +193,20 @@ class Draw:
                                  for i, one in enumerate(self.varies.scatters)}
         made = [(one.name, how) for one, how in self.fields] + [(one.name, how) for one, how, _ in self.processes]
         found.update({name: self.translations[name](how.many(part)) for (name, how), part in zip(made, parts[1:])})
+        for one, _, times in self.processes:
+            if one.how == "factor" and len(self._factors[one.name][0]) > len(times):
+                found[one.name] = numpy.array([numpy.interp(self._factors[one.name][0], times, row)
+                                               for row in found[one.name]])
         return [{name: values[i] for name, values in found.items()} for i in range(len(rows))]
+
+    def mean(self, name: str, value: Any) -> float:
+        """The value of a sample as one number: of fields and processes the mean."""
+        if isinstance(value, float):
+            return value
+        times = next((times for one, _, times in self.processes if one.name == name), None)
+        if times is not None and len(value) > len(times):
+            value = need("numpy").interp(times, self._factors[name][0], value)
+        return float(value.mean())
 
     def overrides(self, values: dict[str, Any]) -> dict[str, Any]:
         """Changes for scene.load that make the scene of one sample."""
@@ -291,9 +305,8 @@ class Draw:
         if one.how == "added":
             rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
             return {f"time_function[{number}].segment": [*self._written(segments, unit), {"table": rows}]}
-        at, base = self._factors[one.name]
         rows = [[text(float(t), "s"), text(float(b * v), unit)]
-                for t, b, v in zip(at, base, need("numpy").interp(at, times, factors))]
+                for t, b, v in zip(*self._factors[one.name], factors)]
         return {f"time_function[{number}].segment": [{"table": rows}]}
 
     def _base(self, one: RandomProcess, times: Any) -> tuple[Any, Any]:

@@ -225,8 +225,7 @@ class SceneSample:
 
     def _result(self, number: int, values: dict[str, Any], started: float) -> Result:
         count = len(self.names)
-        inputs = [value if isinstance(value, float) else float(value.mean())
-                  for value in (values[name] for name in self.inputs)]
+        inputs = [self.draw.mean(name, values[name]) for name in self.inputs]
         try:
             found = self._margins(values)
             margins, demands, status, message = [a for a, _ in found], [b for _, b in found], DONE, ""

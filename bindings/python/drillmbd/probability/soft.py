@@ -280,7 +280,7 @@ class SoftString:
 
     @staticmethod
     def _plan(calls: Any) -> Operating:
-        return operating(SimpleNamespace(model=SimpleNamespace(calls=calls)))  # type: ignore[arg-type]
+        return operating(SimpleNamespace(model=SimpleNamespace(calls=calls)), 0)  # type: ignore[arg-type]
 
     def _refuse_lost(self) -> None:
         """Numbers that vary and that the structs do not have, as stations of a survey."""
@@ -324,7 +324,7 @@ class SoftString:
                      for name, args in scene.model.calls]
             from ..model import Model, remake
             model = remake(Model, calls)
-            return self.rows.of(model._handle, operating(scene))
+            return self.rows.of(model._handle, operating(scene, 0))
 
     def _of(self, described: Described, plan: Operating) -> Soft:
         handle = c_void_p()
