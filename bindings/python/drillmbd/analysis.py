@@ -183,7 +183,7 @@ class Analyses(AnalysisCalls):
                 options.depth_count = len(below)
                 options.depths = (c_double * len(below))(*below)
             count = max(1, options.depth_count) * len(requested)
-            rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
+            rows = (TorqueDragRow * count).from_buffer_copy(bytes(TorqueDragRow.blank()) * count)
             status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options),
                                             (Operation * len(requested))(*requested),
                                             len(requested), rows))

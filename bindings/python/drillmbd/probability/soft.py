@@ -210,7 +210,7 @@ class Rows:
 
     def __init__(self, wall: bool, string: Any = None) -> None:
         self.options, self.wall, self.string = TorqueDragOptions(), wall, string
-        self.rows = (TorqueDragRow * len(STATES))(*[TorqueDragRow.blank() for _ in STATES])
+        self.rows = (TorqueDragRow * len(STATES)).from_buffer_copy(bytes(TorqueDragRow.blank()) * len(STATES))
         self.forces = (c_double * STATIONS)() if wall else None
         self.sim_options = SimOptions()
         self.known: tuple[Any, ...] = ()  # what the operations are of
