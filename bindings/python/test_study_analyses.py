@@ -257,6 +257,10 @@ diameter = 0
             z[1] = 1.3
             known = 60.0 * math.sin(math.radians(0.5 * 1.3 * sample.draw.fields[0][1].matrix[0, 0]))
             self.assertLess(abs(sample(0, z).demands[0] / abs(known) - 1.0), 1e-3)
+        deeper = LEVEL.replace('name = "rods"', 'name = "rods"\nstart_depth = "20 m"').replace("count = 40",
+                                                                                              "count = 20")
+        sample = SceneSample(deeper + more + failure("leaves-seam", limit="0.4 m"), given_question="torque-drag")
+        self.assertLess(abs(sample(0, z).demands[0] / abs(known) * 60.0 / 50.0 - 1.0), 1e-3)  # 30 m from 20 m on
         self.assertEqual(SceneSample(LEVEL + failure("leaves-seam", limit="0.4 m"))(0, np.zeros(1)).demands, [0.0])
 
     def test_engines(self):

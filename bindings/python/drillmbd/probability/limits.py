@@ -136,7 +136,9 @@ class Course:
     def __init__(self, scene: Scene) -> None:
         lengths = [arguments[0] * arguments[1].get("length", 1.0) for name, arguments in scene.model.calls
                    if name == "add_pipes"]
-        self.depths = [math.fsum(lengths) * i / COURSE for i in range(COURSE + 1)]
+        begin = max((float(arguments[0].get("start_depth", 0.0)) for name, arguments in scene.model.calls
+                     if name == "add_string"), default=0.0)
+        self.depths = [(begin + math.fsum(lengths)) * i / COURSE for i in range(COURSE + 1)]
         self.heights = self._heights(scene)
 
     def _heights(self, scene: Scene) -> list[float]:
