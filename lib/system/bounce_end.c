@@ -36,16 +36,31 @@ static double *given_of(const dmb_sim *sim)
     return sim->scene->unilateral_count > 0 ? sim->bounce_given : sim->correction;
 }
 
+/* Residual -force J^T of law u alone. */
+static void press_alone(dmb_evaluation *evaluation, uint32_t u, double force)
+{
+    dmb_sim *sim = evaluation->sim;
+    memset(sim->residual, 0, sim->scene->row_count * sizeof(double));
+    dmb_bounce_press(evaluation, &sim->trial, u, force);
+}
+
+/* Rate [m/s, rad/s] of the coordinate of law u by a velocity; with an acceleration, its second rate. */
+static double rate_by(dmb_evaluation *evaluation, uint32_t u, const double *velocity)
+{
+    const dmb_sim *sim = evaluation->sim;
+    double sum = 0.0;
+    press_alone(evaluation, u, -1.0);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum -= sim->residual[i] * velocity[i];
+    return sum;
+}
+
 /* sim->correction = M^-1 J^T with the present factors; returns the mobility J M^-1 J^T [1/kg, 1/(kg m2)]. */
 static double mobility(dmb_evaluation *evaluation, uint32_t u)
 {
     dmb_sim *sim = evaluation->sim;
-    double sum = 0.0;
-    memset(sim->residual, 0, sim->scene->row_count * sizeof(double));
-    dmb_bounce_press(evaluation, &sim->trial, u, -1.0);
+    press_alone(evaluation, u, -1.0);
     dmb_solve_for(sim, sim->residual, sim->correction);
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum -= sim->residual[i] * sim->correction[i];
-    return sum;
+    return rate_by(evaluation, u, sim->correction);
 }
 
 /* 1: the law keeps its mean force in the next step (table at the head of this file). */
@@ -74,17 +89,33 @@ static double lacking(const dmb_evaluation *evaluation, uint32_t u)
     return -evaluation->step * drift(evaluation) * evaluation->sim->bounce_own[u] / evaluation->own_factor;
 }
 
-static void find_bias(dmb_evaluation *evaluation, uint32_t u)
+/* 1: a law of a spring that turns has had a mean force in the step before, too. */
+static int turns_on(const dmb_sim *sim, uint32_t u)
 {
-    evaluation->sim->bounce_bias[u] = lacking(evaluation, u) * mobility(evaluation, u);
+    return sim->bounce_turns[u] && sim->bounce_mode[u] == DMB_BOUNCE_OWN;
+}
+
+/* Biases by the mean forces of all laws: they move each other's nodes, also by joints and by the inertia of elements.
+ */
+static void find_biases(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    int any = 0;
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) any |= turns_on(sim, u);
+    if (!any) return;
+    memset(sim->residual, 0, sim->scene->row_count * sizeof(double));
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (sim->bounce_own[u] != 0.0) dmb_bounce_press(evaluation, &sim->trial, u, -lacking(evaluation, u));
+    dmb_solve_for(sim, sim->residual, sim->bounce_kick);
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (turns_on(sim, u)) sim->bounce_bias[u] = rate_by(evaluation, u, sim->bounce_kick);
 }
 
 /* 1: a law that turns is followed from here on, behind steps with a mean force: the velocity gets its part. Not behind
  * one that has opened: its mean force was in balance with nothing. */
 static int takes_over(const dmb_sim *sim, uint32_t u)
 {
-    const int ends = sim->bounce_mode[u] == DMB_BOUNCE_OWN && !sim->bounce_stays[u];
-    return sim->bounce_turns[u] && ends && sim->trial.bounce_force[u] != 0.0;
+    return turns_on(sim, u) && !sim->bounce_stays[u] && sim->trial.bounce_force[u] != 0.0;
 }
 
 /* Adds the force of law u if it acts from here on. */
@@ -284,9 +315,8 @@ static void exchange_laws(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const uint32_t n = sim->scene->row_count;
     memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
+    find_biases(evaluation);
     memset(sim->bounce_kick, 0, n * sizeof(double));
-    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
-        if (sim->bounce_turns[u] && sim->bounce_mode[u] == DMB_BOUNCE_OWN) find_bias(evaluation, u);
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end a, b;
         sim->bounce_stays[u] = 0;

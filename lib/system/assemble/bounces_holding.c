@@ -24,9 +24,6 @@
 #define DMB_HOLD_END 2.5e-3
 #define DMB_HOLD_CHANGE 0.3
 #define DMB_HOLD_SHARE 1e-3
-/* [-] Change of the force in the step, over its size, below which the spring rests: an unresolved oscillation changes
- * it by more from step to step. */
-#define DMB_HOLD_REST 1e-5
 
 /* Nodes that a law acts on, and the points [m] of its force there. */
 typedef struct law_nodes {
@@ -135,19 +132,9 @@ static int oscillates(const dmb_sim *sim, uint32_t u, double h, double amplitude
     return fmax(fabs(at_start), fabs(at_end)) > amplitude * hw * force || fabs(change) > DMB_HOLD_CHANGE * force;
 }
 
-/* 1: the force hardly changes in the trial. The velocity of a spring that rests under a mean force is that of its bias,
- * on which dampers act: it would rest beside its equilibrium. */
-static int rests(const dmb_sim *sim, uint32_t u)
-{
-    dmb_unilateral_end a, b;
-    dmb_bounce_ends(sim, u, &a, &b);
-    return fabs(b.force - a.force) < DMB_HOLD_REST * force_beside(sim, u, 1);
-}
-
 /* 1: it does at the end of a step, whose bias is known. */
 static int still_oscillates(const dmb_sim *sim, uint32_t u, double h)
 {
-    if (rests(sim, u)) return 0;
     return oscillates(sim, u, h, DMB_HOLD_END, sim->bounce_mode[u] == DMB_BOUNCE_OWN ? sim->bounce_bias[u] : 0.0);
 }
 
