@@ -31,21 +31,21 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
 
 const dmb_list *dmb_model_list(const dmb_model *model, uint32_t kind)
 {
-    static const size_t lists[] = {[DMB_PART_TIME_FUNCTION] = offsetof(dmb_model, time_functions),
-                                   [DMB_PART_STRING] = offsetof(dmb_model, strings),
-                                   [DMB_PART_BODY] = offsetof(dmb_model, bodies),
-                                   [DMB_PART_BIT] = offsetof(dmb_model, bits),
-                                   [DMB_PART_DRIVE] = offsetof(dmb_model, drives),
-                                   [DMB_PART_LOAD] = offsetof(dmb_model, loads),
-                                   [DMB_PART_JOINT] = offsetof(dmb_model, joints),
-                                   [DMB_PART_COUPLING] = offsetof(dmb_model, couplings),
-                                   [DMB_PART_CONSTRAINT] = offsetof(dmb_model, constraints),
-                                   [DMB_PART_INPUT] = offsetof(dmb_model, inputs),
-                                   [DMB_PART_SPRING] = offsetof(dmb_model, springs),
-                                   [DMB_PART_EVENT] = offsetof(dmb_model, events),
-                                   [DMB_PART_FORCE] = offsetof(dmb_model, forces),
-                                   [DMB_PART_STUCK] = offsetof(dmb_model, stuck),
-                                   [DMB_PART_STABILISER] = offsetof(dmb_model, rings)};
+    static const size_t lists[DMB_PART_EVENT + 1] = {[DMB_PART_TIME_FUNCTION] = offsetof(dmb_model, time_functions),
+                                                     [DMB_PART_STRING] = offsetof(dmb_model, strings),
+                                                     [DMB_PART_BODY] = offsetof(dmb_model, bodies),
+                                                     [DMB_PART_BIT] = offsetof(dmb_model, bits),
+                                                     [DMB_PART_DRIVE] = offsetof(dmb_model, drives),
+                                                     [DMB_PART_LOAD] = offsetof(dmb_model, loads),
+                                                     [DMB_PART_JOINT] = offsetof(dmb_model, joints),
+                                                     [DMB_PART_COUPLING] = offsetof(dmb_model, couplings),
+                                                     [DMB_PART_CONSTRAINT] = offsetof(dmb_model, constraints),
+                                                     [DMB_PART_INPUT] = offsetof(dmb_model, inputs),
+                                                     [DMB_PART_SPRING] = offsetof(dmb_model, springs),
+                                                     [DMB_PART_EVENT] = offsetof(dmb_model, events),
+                                                     [DMB_PART_FORCE] = offsetof(dmb_model, forces),
+                                                     [DMB_PART_STUCK] = offsetof(dmb_model, stuck),
+                                                     [DMB_PART_STABILISER] = offsetof(dmb_model, rings)};
     if (kind >= sizeof lists / sizeof lists[0] || lists[kind] == 0) return NULL;
     return (const dmb_list *)(const void *)((const char *)model + lists[kind]);
 }

@@ -6,9 +6,11 @@ enum { TOPIC_RESPONSE = TOPIC_OF_RELATION + 70, PLACES = 3, FREQUENCIES = 5, MOD
 
 /* ---- Tools ------------------------------------------------------------------------------------------------------ */
 
-/* 0 where places do not move across the hole, or the stiffness is unsymmetric. */
+/* 0 where places do not move across the hole, or the stiffness is unsymmetric, as that of a bit load in a bend is
+ * (eq:motion.turn): bent holes have no bit here. */
 static int reciprocal(trial *t)
 {
+    if (t->s.family == FAMILY_BENT) t->s.has_bit = 0;
     if (t->s.string[0].pipe[0].kind == DMB_PIPE_AXIAL_TORSIONAL)
         left_out(t, "pipes that the hole holds across");
     else if (scene_drives_tilt(&t->s))
