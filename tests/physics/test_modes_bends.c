@@ -98,33 +98,43 @@ static void load_on_an_arc(void **state)
 
 /* ---- Load in hole axes ------------------------------------------------------------------------------------------- */
 
+/* A body of MASS on springs (turned: stiffness of its rotation) at rest under a force in hole axes; its place. */
+#define MASS 10.0
+
+static dmb_id open_held_body(rig *s, double sign, const double stiffness[3], double turned, double along, double across)
+{
+    dmb_body_def body = dmb_body_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    rig_open(s, 0.0, 0.0, 0.0);
+    add_arc(s, sign);
+    body.mass = MASS;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
+    const dmb_id id = add_body(s, &body);
+    load.place = dmb_station(id, 0, 0.0);
+    dmb_joint_def joint = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), load.place);
+    for (int i = 0; i < 6; i++) joint.stiffness[i] = i < 3 ? stiffness[i] : turned;
+    (void)add_joint(s, &joint);
+    load.frame = DMB_FRAME_HOLE;
+    load.force[0] = along, load.force[2] = across;
+    (void)add_load(s, &load);
+    (void)rig_start(s, NULL);
+    (void)find_equilibrium(s, NULL);
+    return id;
+}
+
 /* A body on springs k, pulled by F towards the centre of the arc: it moves in by d = F/k and swings about the centre
  * under k R/(R - d). */
 static void body_pulled_to_the_centre(void **state)
 {
     (void)state;
-    const double k = 4000.0, m = 10.0;
+    const double k = 4000.0, springs[3] = {k, k, k};
     for (int sign = 1; sign >= -1; sign -= 2) {
-        dmb_body_def body = dmb_body_def_default();
-        dmb_load_def load = dmb_load_def_default();
         rig s;
-        rig_open(&s, 0.0, 0.0, 0.0);
-        add_arc(&s, sign);
-        body.mass = m;
-        for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
-        load.place = dmb_station(add_body(&s, &body), 0, 0.0);
-        dmb_joint_def joint = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), load.place);
-        for (int i = 0; i < 6; i++) joint.stiffness[i] = i < 3 ? k : 3.0 * k;
-        (void)add_joint(&s, &joint);
-        load.frame = DMB_FRAME_HOLE;
-        load.force[2] = sign * 0.2 * k;
-        (void)add_load(&s, &load);
-        (void)rig_start(&s, NULL);
-        (void)find_equilibrium(&s, NULL);
+        (void)open_held_body(&s, sign, springs, 3.0 * k, 0.0, sign * 0.2 * k);
         dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
         check_below("body pulled to the centre of a bend: swing along the hole",
-                    closest_mode(modes, sqrt(k / m / (1.0 - 0.2 / RADIUS))), 1e-9);
-        check_below("body pulled to the centre of a bend: across the hole", closest_mode(modes, sqrt(k / m)), 1e-9);
+                    closest_mode(modes, sqrt(k / MASS / (1.0 - 0.2 / RADIUS))), 1e-9);
+        check_below("body pulled to the centre of a bend: across the hole", closest_mode(modes, sqrt(k / MASS)), 1e-9);
         dmb_modes_destroy(&modes);
         rig_close(&s);
     }
@@ -135,24 +145,10 @@ static void body_pulled_to_the_centre(void **state)
  * and displacements by a force of 40 rad/s. */
 static void check_pushed(double sign, double F)
 {
-    const double k[2] = {4000.0, 7000.0}, m = 10.0, w = 40.0;
-    dmb_body_def body = dmb_body_def_default();
-    dmb_load_def load = dmb_load_def_default();
+    const double k[2] = {4000.0, 7000.0}, springs[3] = {k[0], k[1], k[1]}, m = MASS, w = 40.0;
     rig s;
-    rig_open(&s, 0.0, 0.0, 0.0);
-    add_arc(&s, sign);
-    body.mass = m;
-    for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
-    load.place = dmb_station(add_body(&s, &body), 0, 0.0);
-    dmb_joint_def joint = joint_between(DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), load.place);
-    for (int i = 0; i < 6; i++) joint.stiffness[i] = i == 0 ? k[0] : i < 3 ? k[1] : 30.0 * k[1];
-    (void)add_joint(&s, &joint);
-    load.frame = DMB_FRAME_HOLE;
-    load.force[0] = F;
-    (void)add_load(&s, &load);
-    (void)rig_start(&s, NULL);
-    (void)find_equilibrium(&s, NULL);
-    const dmb_pose at = pose_at(&s, load.place);
+    const dmb_place place = dmb_station(open_held_body(&s, sign, springs, 30.0 * k[1], F, 0.0), 0, 0.0);
+    const dmb_pose at = pose_at(&s, place);
     const double r[2] = {at.displacement[0], at.displacement[2] - sign * RADIUS}, c = F / hypot(r[0], r[1]);
     const double t[2] = {-sign * r[1] / hypot(r[0], r[1]), sign * r[0] / hypot(r[0], r[1])},
                  n[2] = {-sign * t[1], sign * t[0]};
@@ -169,8 +165,8 @@ static void check_pushed(double sign, double F)
     const double want[2][2] = {{D[1][1] / det, -D[0][1] / det}, {-D[1][0] / det, D[0][0] / det}};
     for (int out = 0; out < 2; out++)
         for (int in = 0; in < 2; in++) {
-            const dmb_excitation force = force_at(load.place, in == 0 ? DMB_X : DMB_Z);
-            const dmb_output moved = output_at(DMB_OUTPUT_VIBRATION, load.place, out == 0 ? DMB_X : DMB_Z);
+            const dmb_excitation force = force_at(place, in == 0 ? DMB_X : DMB_Z);
+            const dmb_output moved = output_at(DMB_OUTPUT_VIBRATION, place, out == 0 ? DMB_X : DMB_Z);
             const double frequency = w / (2.0 * PI);
             double complex value;
             transfer(&s, NULL, &force, &moved, &frequency, 1, &value);

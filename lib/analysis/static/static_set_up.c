@@ -22,8 +22,8 @@ int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dm
 }
 
 /* A search without load steps, slip or spins: full loads, tangent with every residual. Strategies change these fields
- * afterwards. Forces that turn with the depth of a bent hole make a stiffness non-symmetric without consequence for
- * stability (eq:modes.skew). */
+ * afterwards. Of the stiffness of forces that turn with the depth of a bent hole they use the symmetric part, which
+ * has the same eigenvalues but for second order (eq:modes.skew); flutter by such forces is not examined. */
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
 {
     memset(search, 0, sizeof *search);

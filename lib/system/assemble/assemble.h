@@ -41,13 +41,13 @@ void dmb_assemble_flow(dmb_evaluation *evaluation);
 
 /* Described loads at a point inside an element, or off the axis of a node. */
 
-/* factor times the load; frame (body to world) of its components if it is not a follower load. */
 /* K += factor by_depth depth_by^T, the turn of a force with the depth: its derivative by the depth, times that of the
  * depth by displacements; in statics the symmetric part (turn_halves). */
 void dmb_add_turn(const dmb_evaluation *evaluation, double factor, const double by_depth[6], const double depth_by[6],
                   double K[36]);
 /* Wrench of a load at a point, in the axes of the point [N, N m], at the load factor of the configuration. */
 void dmb_point_load_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t load, double w[6]);
+/* factor times the load; frame (body to world) of its components if it is not a follower load. */
 void dmb_assemble_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
                              const double frame[9]);
 

@@ -24,7 +24,7 @@ typedef struct bit_motion {
     double advance, speed, angle, spin;
     double along[6], about[6]; /* body-frame directions of both at the node: speed = along . v, spin = about . v */
     double axis[3];            /* the axis in the body frame */
-    double bend[3];            /* [1/m] its change with the depth, likewise; 0 on axial-torsional nodes */
+    double bend[3];            /* [1/m] its change with the depth, body frame; 0 on axial-torsional nodes */
     double depth_by;           /* [-] J: depth of the closest point of the axis by advance of a point beside it */
 } bit_motion;
 
@@ -173,8 +173,8 @@ static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_mo
     out->dW_dU = out->dW_dPhi = out->dT_dU = out->dT_dPhi = 0.0;
 }
 
-/* K -= -(along dW + about dT) x (dU J along + dPhi about), C likewise with V and Omega; and the axial force rotates
- * with the body, and in a bent hole with the depth (eq:motion.turn). J = ds/dx of a point beside the axis. */
+/* K -= -(along dW + about dT) x (dU J along + dPhi about), C by V and Omega in the same way; the axial force rotates
+ * with the body and, in a bent hole, with the depth (eq:motion.turn). J = ds/dx of a point beside the axis. */
 static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
                         double axial)
 {
