@@ -6,6 +6,12 @@
 #include "kernel/kernels.h"
 #include "sim/sim.h"
 
+#ifdef DMB_SOME_CASES
+enum { STEPS = 15 };
+#else
+enum { STEPS = 60 };
+#endif
+
 static void use_lanes(rig *s, uint32_t lanes)
 {
     ((dmb_scene *)(uintptr_t)s->sim->scene)->kernels = dmb_kernels_of(lanes);
@@ -25,7 +31,7 @@ static uint64_t hash_of_rig(const full_rig_choice *choice, uint32_t lanes)
     rig s;
     full_rig_open(&s, choice);
     use_lanes(&s, lanes);
-    for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 2e-4, NULL));
+    for (int i = 0; i < STEPS; i++) must(&s, dmb_sim_step(s.sim, 2e-4, NULL));
     return close_with_hash(&s);
 }
 
@@ -40,7 +46,7 @@ static uint64_t hash_of_string(uint32_t pipes, uint32_t elements, uint32_t lanes
     add_pipes(&s, &pipe, pipes);
     rig_start(&s, NULL);
     use_lanes(&s, lanes);
-    for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
+    for (int i = 0; i < STEPS; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
     return close_with_hash(&s);
 }
 
@@ -67,7 +73,7 @@ static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
     add_drive(&s, &turn);
     rig_start(&s, NULL);
     use_lanes(&s, lanes);
-    for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
+    for (int i = 0; i < STEPS; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
     return close_with_hash(&s);
 }
 
