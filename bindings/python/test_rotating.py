@@ -508,6 +508,29 @@ class CheckTest(FolderTest):
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.6, 1.0).verdict, "torque oscillates")
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.4, 10.0).verdict, "lateral acceleration")
 
+    def test_a_string_that_turns_freely(self):
+        """No torque but what is left of the start: nothing oscillates, whatever it is over its mean."""
+        text = SCENE.replace("= 0.30", "= 0.0")
+        self.assertNotEqual(text, SCENE)
+        for change in ("", 'kind = "axial-torsional"'):
+            self.scene = self.write("free.toml", text.replace('eccentricity = "0.5 mm"', change))
+            out, summary = self.results("speeds", "--check", "2")
+            self.assertEqual([row["time"] for row in summary["speeds_check"]["speeds"]], ["steady"] * 2, out)
+
+    def test_torsional_waves(self):
+        """Torque of a wave sqrt(G rho) J w and the period 4 L/c, by the diameters and by the section."""
+        pipe = {"length": 2.0, "outer_diameter": 0.073, "inner_diameter": 0.059, "young_modulus": 2.1e11,
+                "poisson_ratio": 0.3, "density": 7850.0}
+        polar, shear = math.pi / 32.0 * (0.073 ** 4 - 0.059 ** 4), 2.1e11 / 2.6
+        section = {"section_stiffness": (0.0, 0.0, 0.0, 4.0 * shear * polar, 0.0, 0.0),
+                   "section_inertia": (9.0 * 7850.0 * polar, 0.0)}
+        for more, wave, time in (({}, 1.0, 1.0), (section, 6.0, 1.5)):
+            scene = unittest.mock.Mock(model=unittest.mock.Mock(calls=[("add_pipes", (5, {**pipe, **more})),
+                                                                       ("add_pipes", (5, pipe))]))
+            known = 3.0 * wave * polar * math.sqrt(7850.0 * shear)
+            self.assertAlmostEqual(speed_check.wave_torque(scene, 3.0) / known, 1.0)
+            self.assertAlmostEqual(speed_check.slowest_period(scene) / (80.0 * time / math.sqrt(shear / 7850.0)), 1.0)
+
     def test_a_string_that_stays_on_its_axis(self):
         """Axial-torsional pipes have no lateral acceleration, which is no assessment of it."""
         text = SCENE.replace('eccentricity = "0.5 mm"', 'kind = "axial-torsional"')

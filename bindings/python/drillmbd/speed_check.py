@@ -27,6 +27,9 @@ WINDOW = 4.0            #: [s] that is assessed, at least
 REVOLUTIONS = 3         #: in it, at least
 PERIODS = 3             #: of the slowest torsional vibration, fixed at the rig, in it and before it, at least
 SWING = 0.5             #: [-] half the range of the torque over its mean, above which it swings
+#: [-] of the torque of a torsional wave with the rotary speed, below which a mean does not count: a range that is
+#: smaller hardly changes the speed of any pipe
+OF_WAVE = 0.01
 #: [m/s2] root mean square of lateral acceleration above which the string leaves the wall by itself
 GRAVITY = 9.81
 STEADY, TORQUE, LATERAL, FAILED = "steady", "torque oscillates", "lateral acceleration", "run failed"
@@ -43,6 +46,7 @@ class Course:
     end: float            #: [s]
     step: float | None    #: [s]
     drive: Any            #: its id
+    least: float          #: [N m] least mean with which the range of the torque is compared
 
 
 @dataclass
@@ -50,7 +54,7 @@ class Result:
     """Of one speed."""
     speed: float                    #: [rad/s]
     torque: float = math.nan        #: [N m] mean at the rig
-    swing: float = math.nan         #: [-] half the range of the torque over its mean
+    swing: float = math.nan         #: [-] half the range of the torque over its mean, or over Course.least
     acceleration: float = math.nan  #: [m/s2] largest root mean square of lateral acceleration along the string
     error: str = ""
 
@@ -129,7 +133,7 @@ def _measured(course: Course, scene: Scene, sim: Any) -> Result:
     torque, lateral = table[:, 1], table[:, 2:].reshape(len(table), len(places), 2)
     mean = float(torque.mean())
     size = numpy.sqrt((lateral ** 2).sum(axis=2).mean(axis=0))
-    return Result(course.speed, mean, float(torque.max() - torque.min()) / 2.0 / abs(mean) if mean else math.nan,
+    return Result(course.speed, mean, float(torque.max() - torque.min()) / 2.0 / max(abs(mean), course.least),
                   float(size.max()))
 
 
@@ -158,7 +162,8 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
         results.append(one)
         out.say(_line(one, _linear(found, one.speed), out))
     elapsed = time.perf_counter() - started
-    out.say(f"limits: torque oscillates where half its range exceeds {SWING:g} of its mean; lateral acceleration where "
+    out.say(f"limits: torque oscillates where half its range exceeds {SWING:g} of its mean, or of {OF_WAVE:g} of the "
+            "torque of a torsional wave with the rotary speed if the mean is smaller; lateral acceleration where "
             "its root mean square, the largest "
                f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which "
                "weight no longer holds the string on the "
@@ -180,7 +185,7 @@ def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Cours
                  and remade.number_of(arguments[0]["time_function"]) == turning)
     return [Course(at_speed(scene, speed, turning), speed, settle,
                    settle + max(WINDOW, PERIODS * slowest, REVOLUTIONS * 2.0 * math.pi / speed), scene.run.get("step"),
-                   drive) for speed in speeds]
+                   drive, OF_WAVE * wave_torque(scene, speed)) for speed in speeds]
 
 
 def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Any, ...]]]:
@@ -188,19 +193,39 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Any, ...]]]:
     return (call for call in scene.model.calls if call[0].startswith("add_") and call[0] != "add_hole_sections")
 
 
-def slowest_period(scene: Scene) -> float:
-    """[s] 4 L/c of the longest string, fixed at the rig and free at the bit, c the speed of torsional waves in its
-    first pipes."""
-    length: dict[Any, float] = {}
-    speed: dict[Any, float] = {}
+@dataclass
+class _Shaft:
+    """A string in torsion, of the section of its first pipes."""
+    stiffness: float     #: [N m2] G J
+    inertia: float       #: [kg m] rho J
+    length: float = 0.0  #: [m]
+
+
+def _shafts(scene: Scene) -> list[_Shaft]:
+    """Of all strings."""
+    found: dict[Any, _Shaft] = {}
     for name, arguments in scene.model.calls:
         if name != "add_pipes":
             continue
         pipe = _structs.PipeDef(**{key: value for key, value in arguments[1].items() if key != "string"})
         string = arguments[1].get("string") and remade.number_of(arguments[1]["string"])
-        length[string] = length.get(string, 0.0) + arguments[0] * pipe.length
-        speed.setdefault(string, math.sqrt(0.5 * pipe.young_modulus / (1.0 + pipe.poisson_ratio) / pipe.density))
-    return max((4.0 * length[one] / speed[one] for one in length), default=0.0)
+        polar = math.pi / 32.0 * (pipe.outer_diameter ** 4 - pipe.inner_diameter ** 4)
+        shear = 0.5 * pipe.young_modulus / (1.0 + pipe.poisson_ratio)
+        shaft = found.setdefault(string, _Shaft(pipe.section_stiffness[3] or shear * polar,
+                                                pipe.section_inertia[0] or pipe.density * polar))
+        shaft.length += arguments[0] * pipe.length
+    return list(found.values())
+
+
+def slowest_period(scene: Scene) -> float:
+    """[s] 4 L/c of the slowest string, fixed at the rig and free at the bit, c = sqrt(G J/(rho J)) the speed of
+    torsional waves."""
+    return max((4.0 * one.length * math.sqrt(one.inertia / one.stiffness) for one in _shafts(scene)), default=0.0)
+
+
+def wave_torque(scene: Scene, speed: float) -> float:
+    """[N m] Of a torsional wave whose speed [rad/s] this is, sqrt(G J rho J) speed, in the weakest string."""
+    return speed * min((math.sqrt(one.stiffness * one.inertia) for one in _shafts(scene)), default=0.0)
 
 
 def _run_all(courses: list[Course]) -> Iterator[Result]:
