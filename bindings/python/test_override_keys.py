@@ -24,6 +24,8 @@ WRONG = (("hole.mu_dynamik=0.1,0.2", "'hole.mu_dynamik': hole has no key mu_dyna
          ("drive[2].gain=1", "drive[2]: the scene has 2 such tables, numbered from 0"),
          ("drive.gain=1", "drive.gain: drive holds no keys; name one of its items by [0], [1]"),
          ("joint[1].damping=1", "joint[1]: the scene has no such table"),
+         ("joint[0].damping=1", "joint[0]: the scene has no such table; describe it in the scene file"),
+         ("hole.section[0].diameter=96 mm", "hole.section[0]: the scene has no such table"),
          ("variability.scatter[0].men=1", "scatter[0] has no key men; did you mean variability.scatter[0].mean?"))
 VARIABILITY = """[variability]
 question = "torque-drag"

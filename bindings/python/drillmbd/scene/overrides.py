@@ -10,6 +10,7 @@ from typing import Any
 from .lines import Path
 from .problems import Problems, dotted, meant
 
+NO_TABLE = "the scene has no such table; describe it in the scene file"
 _KEY = re.compile(r"[A-Za-z_][\w-]*(?:\.[A-Za-z_][\w-]*|\[[^][]+\])*")
 
 
@@ -86,20 +87,24 @@ def _number(key: str, name: str, table: str, holder: Any) -> int:
     raise ValueError(f"{key!r}: no [[{table}]] is named {name}{there}")
 
 
-def _step(holder: Any, part: Any, path: Path, problems: Problems) -> Any:
-    """The table or array one part further along a path; None, and a problem, without one."""
+def _step(holder: Any, part: Any, after: Any, path: Path, problems: Problems) -> Any:
+    """The table or array one part further along a path; None, and a problem, without one. after: the part that follows.
+    A number counts the tables that there are: it makes none."""
     if isinstance(part, int):
         items = [holder] if isinstance(holder, dict) else holder if isinstance(holder, list) else []
         if part < len(items):
             return items[part]
         problems.add(path, None, f"the scene has {len(items)} such table{'s' * (len(items) > 1)}, numbered from 0"
-                     if holder else "the scene has no such table")
+                     if holder else NO_TABLE)
         return None
     holder = _only(holder)
-    if isinstance(holder, dict):
-        return holder.setdefault(part, {})
-    problems.add(path, None, _no_keys(path))
-    return None
+    if not isinstance(holder, dict):
+        problems.add(path, None, _no_keys(path))
+        return None
+    if part not in holder and isinstance(after, int):
+        problems.add((*path, after), None, NO_TABLE)
+        return None
+    return holder.setdefault(part, {})
 
 
 def _only(holder: Any) -> Any:
@@ -112,7 +117,7 @@ def _no_keys(path: Path) -> str:
 
 
 def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problems) -> None:
-    """Puts the values where the keys say; tables that are not there yet are made, items of arrays are not. None
+    """Puts the values where the keys say; tables that are not there yet are made, numbered items are not. None
     takes a key out."""
     for key, value in changes.items():
         path = path_of_key(key)
@@ -124,7 +129,7 @@ def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problem
             continue
         holder: Any = content
         for number, part in enumerate(path[:-1]):
-            holder = _step(holder, part, path[:number + 1], problems)
+            holder = _step(holder, part, path[number + 1], path[:number + 1], problems)
             if holder is None:
                 break
         holder = _only(holder)
