@@ -6,8 +6,8 @@
  *     linear, fewer iterations than the last constant one  linear
  *     linear, not fewer                                    constant for 1, 3, 7, ... 31 steps, then linear again
  *     contacts changed, repeated from the constant one     the same
- *     constant                                             its iterations are the measure for the linear one; the wait
- *                                                          shortens by one step */
+ *     constant, also after a linear one that did not       its iterations are the measure for the linear one; the wait
+ *     converge                                             shortens by one step */
 #include "integrator/prediction.h"
 
 #include "kernel/kernels.h"
