@@ -42,7 +42,8 @@ typedef struct dmb_element_type {
     double arm[2];              /* [m] along x from node a to the element's end A, and from its end B to node b */
     dmb_beam_mass mass;         /* the whole mass if the element is straight */
     dmb_curved_mass curved;
-    double mass_per_metre; /* [kg/m] */
+    double mass_per_metre; /* [kg/m] of steel */
+    double mud_per_metre;  /* [kg/m] added mass of mud, across the axis only */
     double weight_mass;    /* [kg] mass of the element on which gravity acts, minus buoyancy */
     double displaced;      /* [m3] volume of fluid displaced */
 } dmb_element_type;

@@ -256,9 +256,9 @@ static inline void add_end_weight(dmb_real half, dmb_real arm, const dmb_real g[
     for (int i = 0; i < 6; i++) load[i] = load[i] + f[i];
 }
 
-/* Half the mass that weighs [kg], a sixth of the length [m], and the mass [kg] of an element. */
+/* Half the mass that weighs [kg], a sixth of the length [m], and the masses [kg] of steel and of mud of an element. */
 typedef struct load_masses {
-    dmb_real half, arm, mass;
+    dmb_real half, arm, mass, mud;
 } load_masses;
 
 /* Loads of both ends from the forces on the nodes and the weight. */
@@ -280,16 +280,20 @@ DMB_LANES_INLINE void loads_of(const dmb_beam_args *args, const dmb_beam_constan
     add_end_weight(-m->half, -m->arm, g, x + LOADS_LOAD + 6);
 }
 
-/* F1 of eq:beam.section-force; velocities and accelerations are those of the ends. */
-DMB_LANES_INLINE void growth_of(const dmb_beam_input *in, dmb_real mass, dmb_real *x)
+/* F1 of eq:beam.section-force; velocities and accelerations are those of the ends. Mud moves across the axis only. */
+DMB_LANES_INLINE void growth_of(const dmb_beam_input *in, const load_masses *m, dmb_real *x)
 {
-    dmb_real near[3], far[3];
+    dmb_real near[3], far[3], near_across[3], far_across[3];
     dmb_vec3_cross(in->va + 3, in->va, near);
     dmb_vec3_add(near, in->aa, near);
     dmb_vec3_cross(in->vb + 3, in->vb, far);
     dmb_vec3_add(far, in->ab, far);
+    dmb_vec3_set(dmb_real_of(0.0), near[1], near[2], near_across);
+    dmb_vec3_set(dmb_real_of(0.0), far[1], far[2], far_across);
     dmb_mat3_vec(x + LOADS_FAR, far, far);
-    for (int i = 0; i < 3; i++) x[LOADS_GROWTH + i] = mass * (near[i] - far[i]);
+    dmb_mat3_vec(x + LOADS_FAR, far_across, far_across);
+    for (int i = 0; i < 3; i++)
+        x[LOADS_GROWTH + i] = m->mass * (near[i] - far[i]) + m->mud * (near_across[i] - far_across[i]);
 }
 
 DMB_LANES_INLINE void far_end_of(const dmb_beam_constants *c, const dmb_real d[6], dmb_real *x)
@@ -308,7 +312,7 @@ DMB_LANES_CALL int32_t end_loads(dmb_beam_args *args, dmb_end_loads *loads)
         dmb_beam_input in;
         dmb_beam_output out;
         dmb_real x[LOADS_NUMBERS];
-        load_masses m = {dmb_real_of(0.0), dmb_real_of(0.0), dmb_real_of(0.0)};
+        load_masses m = {dmb_real_of(0.0), dmb_real_of(0.0), dmb_real_of(0.0), dmb_real_of(0.0)};
         load_types(args, &g, first == 0, &types);
         for (int i = 0; i < 6; i++) in.va[i] = in.vb[i] = in.aa[i] = in.ab[i] = dmb_real_of(0.0);
         load_input(args, &task, &g, &in);
@@ -318,10 +322,11 @@ DMB_LANES_CALL int32_t end_loads(dmb_beam_args *args, dmb_end_loads *loads)
             dmb_real_set_lane(&m.half, l, 0.5 * type->weight_mass);
             dmb_real_set_lane(&m.arm, l, type->length / 6.0);
             dmb_real_set_lane(&m.mass, l, type->mass_per_metre * type->length);
+            dmb_real_set_lane(&m.mud, l, type->mud_per_metre * type->length);
         }
         far_end_of(&types.constants, out.strain, x);
         loads_of(args, &types.constants, &in, &m, &out, x);
-        growth_of(&in, m.mass, x);
+        growth_of(&in, &m, x);
         for (uint32_t l = 0; l < g.used; l++) {
             double numbers[LOADS_NUMBERS];
             for (int i = 0; i < LOADS_NUMBERS; i++) numbers[i] = dmb_real_lane(x + i, (int)l);

@@ -247,6 +247,7 @@ void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_
 {
     dmb_pipe_section section;
     dmb_section_of(def, &section);
+    type->mud_per_metre += mass;
     for (int p = 0; p < 2; ++p) {
         const double *K = section.stiffness;
         double more[6];

@@ -57,26 +57,36 @@ static void frame_at(const host *h, double fraction, section_frame *frame)
         inner_frame(h, fraction, frame);
 }
 
+/* Acceleration [m/s2] of the section at an end, in the frame of node A: the whole, and its part across the axis, which
+ * alone moves mud. */
+static void acceleration_of_end(const host *h, uint32_t end, double whole[3], double across[3])
+{
+    const dmb_configuration *c = &h->sim->now;
+    const double *Q = end ? h->b.Q : h->a.Q;
+    double v[6], a[6], turning[3];
+    dmb_node_vector(h->sim->scene, c, h->node + end, c->velocity, v);
+    dmb_node_vector(h->sim->scene, c, h->node + end, c->acceleration, a);
+    dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], v);
+    dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], a);
+    dmb_vec3_cross(v + 3, v, turning);
+    dmb_vec3_add(a, turning, a);
+    dmb_mat3_vec(Q, a, whole);
+    a[0] = 0.0;
+    dmb_mat3_vec(Q, a, across);
+}
+
 /* F1 [N]: inertia force of a section at B minus that at A, times the length; frame of node A. */
 static void growth_of_inertia(const host *h, double F1[3])
 {
-    const dmb_scene *scene = h->sim->scene;
-    const dmb_configuration *c = &h->sim->now;
-    double acceleration[2][3];
+    double near[2][3], far[2][3];
     dmb_vec3_zero(F1);
-    if (dmb_is_quasi_static(c)) return;
-    for (uint32_t end = 0; end < 2; end++) {
-        double v[6], a[6], turning[3];
-        dmb_node_vector(scene, c, h->node + end, c->velocity, v);
-        dmb_node_vector(scene, c, h->node + end, c->acceleration, a);
-        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], v);
-        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], a);
-        dmb_vec3_cross(v + 3, v, turning);
-        dmb_vec3_add(a, turning, a);
-        dmb_mat3_vec(end ? h->b.Q : h->a.Q, a, acceleration[end]);
-    }
-    dmb_vec3_sub(acceleration[0], acceleration[1], F1);
+    if (dmb_is_quasi_static(&h->sim->now)) return;
+    acceleration_of_end(h, 0, near[0], near[1]);
+    acceleration_of_end(h, 1, far[0], far[1]);
+    dmb_vec3_sub(near[0], far[0], F1);
+    dmb_vec3_sub(near[1], far[1], near[1]);
     dmb_vec3_scale(h->type->mass_per_metre * h->type->length, F1, F1);
+    dmb_vec3_axpy(h->type->mud_per_metre * h->type->length, near[1], F1);
 }
 
 /* Elements from this one on that are side by side between six-DOF nodes and straight, at most `most`. */

@@ -696,13 +696,58 @@ static void external_damping_is_distributed(void **state)
     }
 }
 
+/* ---- Added mass -------------------------------------------------------------------------------------------------- */
+
+/* A rod that its rig end swings with a constant angular acceleration, once it has settled: the inertia of rod and mud
+ * grows along it. Bent by `curvature` its elements are evaluated alone, otherwise in lanes. */
+static void swung_in_mud(uint32_t elements, double curvature)
+{
+    static const double time[2] = {0.0, 100.0}, speed[2] = {0.0, 1e-2};
+    const double L = rod_length, area = 0.25 * PI * 0.02 * 0.02, rate = speed[1] / time[1];
+    dmb_pipe_def pipe = beam_pipe(L, elements, EA, GA, GJ, EI);
+    dmb_environment_def mud = dmb_environment_def_default();
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_segment ramp = dmb_segment_default();
+    rod r = {.at = 1.0};
+    rig_open(&r.s, 0.0, 0.0, 0.0);
+    mud.gravity[2] = 0.0;
+    mud.fluid_density = 1000.0;
+    mud.added_mass = 20.0;
+    must_model(&r.s, dmb_model_set_environment(r.s.model, &mud));
+    pipe.damping_time = 0.3;
+    pipe.curvature[2] = curvature;
+    r.string = add_beam(&r.s, &pipe, DMB_FREE_RZ);
+    ramp.kind = DMB_SEGMENT_TABLE;
+    ramp.table_count = 2, ramp.table_time = time, ramp.table_value = speed;
+    (void)add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_RZ, add_time_function(&r.s, &ramp, 1));
+    options.spectral_radius = 0.0, options.newton_tolerance = 1e-12;
+    (void)rig_start(&r.s, &options);
+    take_steps(&r.s, 1e-2, 800);
+    const double q = rate * area * (pipe.density + mud.added_mass * mud.fluid_density);
+    for (double f = 0.05; f < 1.0; f += 0.1) {
+        const double x = f * L;
+        check_close("shear force by inertia", section_of(&r, f, 1), -0.5 * q * (L * L - x * x), 1e-5 * q * L * L);
+        check_close("bending moment by inertia", section_of(&r, f, 5),
+                    -q * (L * L * L / 3.0 - 0.5 * x * L * L + x * x * x / 6.0), 1e-5 * q * L * L * L);
+    }
+    rig_close(&r.s);
+}
+
+static void mud_is_accelerated(void **state)
+{
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2)
+        for (int bent = 0; bent < 2; bent++) swung_in_mud(elements, 1e-6 * bent);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(assumed_slip),   cmocka_unit_test(forces_inside),
-        cmocka_unit_test(contact_along),  cmocka_unit_test(contact_in_a_turning_hole),
-        cmocka_unit_test(eccentric_mass), cmocka_unit_test(falling),
-        cmocka_unit_test(tool_joints),    cmocka_unit_test(external_damping_is_distributed),
+        cmocka_unit_test(assumed_slip),       cmocka_unit_test(forces_inside),
+        cmocka_unit_test(contact_along),      cmocka_unit_test(contact_in_a_turning_hole),
+        cmocka_unit_test(eccentric_mass),     cmocka_unit_test(falling),
+        cmocka_unit_test(tool_joints),        cmocka_unit_test(external_damping_is_distributed),
+        cmocka_unit_test(mud_is_accelerated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
