@@ -286,7 +286,7 @@ class CommandTest(Base):
 
     def test_all_killed_and_begun_again(self):
         """The whole group of processes is killed in the middle, twice; nothing is lost or done twice."""
-        self.scene.write_text(SCENE.replace('end = "30 ms"', 'end = "1 s"'), encoding="utf-8")
+        self.scene.write_text(SCENE.replace('end = "30 ms"', 'end = "0.4 s"'), encoding="utf-8")
         words = (*COMMAND, "probability", self.scene, "-o", self.folder / "out", "--samples", "24", "--workers", "2")
         kept = 0
         for wanted in (4, 10):

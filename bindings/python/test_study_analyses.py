@@ -1,17 +1,12 @@
 """Tests of the analyses of a study: torque and drag, static states, runs, and auto; against closed forms, against each
 other, and against the analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
 import csv
-import importlib.util
 import json
 import math
-import pathlib
-import shutil
-import subprocess
-import tempfile
 import unittest
 import unittest.mock
 
-from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+from shared_tests import FolderTest, needs
 
 needs("h5py", "numpy", "scipy")
 
@@ -23,11 +18,10 @@ from drillmbd.operating import operating, operations_of
 from drillmbd.probability import auto, demands, engines, limits, soft, until
 from drillmbd.probability.draw import CannotDraw
 from drillmbd.probability.estimates import Estimate, clopper_pearson, counted
-from drillmbd.probability.sampling import Points, drawn
+from drillmbd.probability.sampling import drawn
 from drillmbd.probability.sample import SceneSample, worst
 from drillmbd.probability.study import Study, read_rows
 from drillmbd.scene.failure import KINDS
-from test_engines import MPIRUN, there
 from test_engines import SCENE as SHORT
 
 #: A straight horizontal hole of 60 m without buoyancy: thrust = load + mu w L, pull = mu w L, torque = mu w L D/2 + 0.5
@@ -262,39 +256,6 @@ diameter = 0
         sample = SceneSample(deeper + more + failure("leaves-seam", limit="0.4 m"), given_question="torque-drag")
         self.assertLess(abs(sample(0, z).demands[0] / abs(known) * 60.0 / 50.0 - 1.0), 1e-3)  # 30 m from 20 m on
         self.assertEqual(SceneSample(LEVEL + failure("leaves-seam", limit="0.4 m"))(0, np.zeros(1)).demands, [0.0])
-
-    def test_engines(self):
-        sample = SceneSample(LEVEL + FIELD + ALL)
-        points = Points("monte-carlo", 7, sample.dimension, 450)
-        known = [one.margins for one in Study(sample, engines.serial).run(range(450), points.z)]
-        self.assertEqual([sample(n, points.z(n)).margins for n in (0, 199, 200, 449)],
-                         [known[n] for n in (0, 199, 200, 449)])
-        for engine in (engines.threads(2), engines.processes(2)):
-            self.assertEqual([one.margins for one in Study(sample, engine).run(range(449, -1, -1), points.z)][::-1],
-                             known)
-
-    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None,
-                     "not there: mpirun, mpi4py")
-    def test_mpi(self):
-        """Blocks of samples on ranks, with the same digits."""
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder, "level.toml")
-            path.write_text(LEVEL + ALL, encoding="utf-8")
-            words = (*MPIRUN, "3", *COMMAND, "probability", path, "-o", pathlib.Path(folder, "out"), "--samples", "450",
-                     "--engine", "mpi")
-            done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=300)
-            self.assertEqual(done.returncode, 0, done.stderr[-800:])
-            sample = SceneSample(LEVEL + ALL)
-            known = [one.margins for one in Study(sample, engines.serial).run(range(450),
-                                                                              Points("monte-carlo", 1, 1, 450).z)]
-            self.assertEqual(read_rows(pathlib.Path(folder, "out", "study.h5"))[0]["margin"].tolist(), known)
-
-    @there("distributed")
-    def test_dask(self):
-        sample = SceneSample(LEVEL + ALL)
-        points = Points("monte-carlo", 7, 1, 450)
-        known = [one.margins for one in Study(sample, engines.serial).run(range(450), points.z)]
-        self.assertEqual([one.margins for one in Study(sample, engines.dask(2)).run(range(450), points.z)], known)
 
     def test_registry(self):
         for word, kind in KINDS.items():

@@ -10,8 +10,10 @@ static pool threads;
 
 #ifdef DMB_SOME_CASES
 static const uint32_t parts[] = {3, 8};
+enum { SCENES_APART = 2 }; /* scenes by turns in 3 and in 8 parts */
 #else
 static const uint32_t parts[] = {1, 2, 3, 8};
+enum { SCENES_APART = 1 };
 #endif
 enum { CHOICES = sizeof parts / sizeof parts[0] };
 
@@ -22,7 +24,7 @@ static void test_same_bits(void **state)
         rig s = {NULL, NULL};
         describe(&s, kind);
         const uint64_t alone = walk(&s, NULL, NULL);
-        for (int i = 0; i < CHOICES; i++) {
+        for (int i = kind % SCENES_APART; i < CHOICES; i += SCENES_APART) {
             const dmb_sim_options options = in_parts(pool_run, &threads, parts[i]);
             const uint64_t hash = walk(&s, &options, i % 2 ? &options : NULL);
             if (hash != alone) fail_msg("%s in %u parts: other bits", names[kind], (unsigned)parts[i]);
