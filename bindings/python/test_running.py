@@ -1,5 +1,6 @@
 """Tests of runs in time: many steps in a call give the bits, rows and samples of single ones; notes are kept; Ctrl-C
 ends a run soon."""
+import math
 import os
 import signal
 import threading
@@ -119,6 +120,68 @@ class StrideTest(unittest.TestCase):
                 with self.assertRaises(mbd.Error):
                     one.steps(*wrong)
             self.assertEqual(one.hash(), other.hash())
+
+
+class TimeCounter(Counter):
+    """Notes the times themselves."""
+
+    def take(self):
+        self.calls.append(self.sim.time)
+        return mbd.OK
+
+
+class OwnStepsTest(unittest.TestCase):
+    """Steps of the library's choice: samples are taken after each of them, not only where a call ends."""
+
+    def test_samples_after_each_step(self):
+        made, _, drive = model()
+        with made.sim(step_max=1e-3) as one, made.sim(step_max=1e-3) as other:
+            wanted = []
+            other.on_step = wanted.append
+            other.run(0.3)
+            counter, each, some = TimeCounter(one), *(one.recorder([(drive, "drive_force")], 2000, interval)
+                                                      for interval in (0.0, 2e-3))
+            some.take()
+            at = one.run(0.3, recorder=each, counters=[counter, some])
+            self.assertEqual((one.hash(), at.steps), (other.hash(), len(wanted)))
+            self.assertGreater(len(wanted), 299)
+            self.assertEqual(counter.calls, wanted)
+            self.assertEqual([row[0] for row in each.table], [0.0, *wanted])
+            self.assertEqual(len(some), 151)
+
+    def test_a_function_of_accepted_steps_stays(self):
+        made, _, _ = model()
+        with made.sim(step_max=1e-3) as sim:
+            seen, counter = [], TimeCounter(sim)
+
+            def ends(time):
+                seen.append(time)
+                return len(seen) == 5
+
+            sim.on_step = ends
+            at = sim.run(0.3, counters=[counter])
+            self.assertEqual((at.steps, at.time, counter.calls), (5, seen[-1], seen))
+            self.assertIs(sim.on_step, ends)
+
+    def test_bending_once_in_each_call(self):
+        """A cantilever turns once in each hundredth of the run, so that the ends of the calls see one stress only. Its
+        damage is that of equal steps."""
+        rotation = 10.0 * math.pi
+        made = mbd.Model()
+        string = made.add_pipes(2, damping_time=1e-3)
+        turning = made.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP5, x1=0.5, h1=rotation))
+        made.add_drive(part=string, component=mbd.RX, time_function=turning)
+        made.add_drive(part=string, time_function=made.add_time_function(0.0))
+        made.compile()
+        found = []
+        for step in (None, 2e-3):
+            with made.sim() as sim:
+                sim.static()
+                counter = sim.string_fatigue(string, 2, curve_stress=1e8, slope=4.0)
+                sim.run(100.0 * 2.0 * math.pi / rotation, step=step, counters=[counter])
+                found.append(max(one.damage for one in counter.results))
+        self.assertGreater(found[1], 0.0)
+        self.assertLess(abs(found[0] / found[1] - 1.0), 0.1)
 
 
 class NotesTest(unittest.TestCase):

@@ -20,7 +20,7 @@ from .errors import Usage, status_text
 from .exit_status import STOPPED
 from .fatigue import StringFatigue
 from .language import ENGLISH, Foreign, Language, phrase
-from .running import INACCURATE
+from .running import INCOMPLETE
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Sim
@@ -148,8 +148,8 @@ def note_bounces(sim: Any, out: CommandOutput) -> None:
 
 
 def note_steps(notes: dict[Status, str], out: CommandOutput) -> None:
-    """A note for each reason for which steps of a run are less accurate than the tolerances."""
-    for status in INACCURATE:
+    """A note for each reason for which a run lacks rows, or its steps are less accurate than the tolerances."""
+    for status in INCOMPLETE:
         if status in notes:
             out.note_text(out.units.sentence(phrase("{analysis}: {reason}", analysis="run",
                                                     reason=Foreign(notes[status]))))

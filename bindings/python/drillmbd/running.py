@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 #: [s] by the clock that one call of several steps lasts at most, about: so long Ctrl-C and progress functions wait
 LONGEST = 0.05
-INACCURATE = (NOTE_WORK_LIMITED, NOTE_TOLERANCE)  #: notes of steps that are less accurate than requested
+#: notes of a run that lacks rows, or whose steps are less accurate than requested
+INCOMPLETE = (NOTE_FULL, NOTE_WORK_LIMITED, NOTE_TOLERANCE)
 ROUNDING = 1e-6  #: of a step, by which times of samples may be off
 
 
@@ -156,7 +157,7 @@ def take_all(takers: list[Taker], at: Progress) -> None:
 
 def warn_of(at: Progress) -> None:
     """A warning for each note of a run by which its results are incomplete or less accurate than the tolerances."""
-    for status in (NOTE_FULL, *INACCURATE):
+    for status in INCOMPLETE:
         if status in at.notes:
             warnings.warn(f"run: {at.notes[status]}", RuntimeWarning, stacklevel=3)
 
@@ -189,11 +190,11 @@ class Loop:
                 going = self._call()
             except KeyboardInterrupt:
                 if self.sim.time > before:  # the call was done when it came
-                    take_all(self.takers, self.at)
+                    self._take()
                 raise
             if not going:
                 break
-            take_all(self.takers, self.at)
+            self._take()
             if self.sim._teller.ended or self._told(clock.monotonic(), began):
                 break
         self.at.time, self.at.elapsed = self.sim.time, clock.monotonic() - self.started
@@ -205,7 +206,7 @@ class Loop:
         self.number += count
         self.sim._teller.ended = False
         if not self.lengths.length:
-            report = self.sim.advance(self.lengths.target(self.number))
+            report = self._advance(self.lengths.target(self.number))
         elif count == 1:
             report = self.sim.step(self.lengths.step(self.number))
         else:
@@ -217,6 +218,27 @@ class Loop:
         if report.status == NOTE_STOPPED:  # max_steps of one call; go on
             self.number -= 1
         return bool(report.status != NOTE_CANCELLED)
+
+    def _take(self) -> None:
+        """A sample of each after a call of equal steps; of others they had one after each step."""
+        if self.lengths.length:
+            take_all(self.takers, self.at)
+
+    def _advance(self, time: float) -> Any:
+        """To a time [s] with steps of the library's choice, after each of which the takers have their turn."""
+        usual = self.sim.on_step
+        if not self.takers:
+            return self.sim.advance(time)
+
+        def accepted(now: float) -> bool:
+            take_all(self.takers, self.at)
+            return usual is not None and bool(usual(now))
+
+        self.sim.on_step = accepted
+        try:
+            return self.sim.advance(time)
+        finally:
+            self.sim.on_step = usual
 
     def _count(self) -> int:
         """Steps of the next call: the last one of them is the first after which a taker has something to do."""
