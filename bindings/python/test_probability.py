@@ -16,7 +16,8 @@ import numpy as np
 import scipy.stats as stats
 
 from drillmbd import enums, scene
-from drillmbd.probability import limits
+from drillmbd.operating import BIT_FRICTION
+from drillmbd.probability import limits, sample as samples, statics
 from drillmbd.probability.draw import CannotDraw, Draw, value_of_segments
 from drillmbd.probability.fields import Expansion, Markov, kernel
 from drillmbd.probability.marginals import Translation, frozen, nataf, value_correlation
@@ -526,6 +527,39 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
         self.assertAlmostEqual(found["stick-slip"], 0.3, 2)
         self.assertEqual(found["bit-stuck"], 0.0)
 
+    def test_a_bit_that_does_not_turn(self):
+        """It is no bit without stick-slip."""
+        one = scene.loads(RIG.replace('question = "static"', "") + failure("stick-slip")).failures[0]
+        times = 0.1 * np.arange(3)
+        self.assertEqual(limits.margin(one, times, {"spin": np.array([1.0, 3.0, 1.0])})[1], 0.5)
+        with self.assertRaisesRegex(ArithmeticError, "the bit does not turn"):
+            limits.margin(one, times, {"spin": np.zeros(3)})
+
+    def test_torque_of_the_bit_by_string(self):
+        """Each string has that of its own bit, by hand; one without a bit that of the larger one."""
+        text = RIG.replace("diameter = 0", 'diameter = "94 mm"') + """[[string]]
+name = "other"
+[[string.pipes]]
+outer_diameter = "50 mm"
+inner_diameter = "40 mm"
+[[bit]]
+name = "small"
+string = "other"
+diameter = "60 mm"
+load = "rock"
+[[string]]
+name = "bare"
+[[string.pipes]]
+""" + failure("connection-torque", string="other", limit="1 N m")
+        state = statics.states(scene.loads(text))[2]
+        torques = {name: BIT_FRICTION * 2000.0 * diameter / 3.0
+                   for name, diameter in (("main", 0.094), ("other", 0.06), ("bare", 0.094))}
+        for name, torque in torques.items():
+            self.assertAlmostEqual(state.torque[name, "rig-torque"], torque, 9)
+        self.assertAlmostEqual(state.torque["other", "stress"], math.sqrt(3.0) * torques["other"] * 16.0 * 0.05
+                               / (math.pi * (0.05 ** 4 - 0.04 ** 4)), 3)
+        self.assertEqual(samples._lacking(state), {"connection-torque": state.torque["other", "connection-torque"]})
+
     def test_series(self):
         times = 0.1 * np.arange(11)
         self.assertAlmostEqual(limits.longest(times, [0, 1, 1, 1, 0, 1, 1, 1, 1, 1, 0]), 0.4)
@@ -552,15 +586,22 @@ segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm
         self.assertAlmostEqual(found["lateral-acceleration"], 9.81, 5)
 
     def test_fatigue(self):
-        """Slow push and pull of amplitude F: damage n/(N (S/(F/A))^m)."""
+        """Slow push and pull of amplitude F: damage n/(N (S/(F/A))^m), also where looks are a period apart: cycles are
+        counted in all steps, of the library's choice too."""
         text = RIG.replace('segment = {h0 = "2 kN"}',
                            'segment = {kind = "harmonic", h1 = "100 kN", omega = "20 rad/s"}') \
-            .replace('question = "static"', 'look = "1 ms"')
-        found, _ = sampled(failure("fatigue", curve_stress="100 MPa", slope=4, curve_cycles=1e6), text,
-                           {"load.moment": [0, 0, 0], "string[0].pipes.count": 2, "run.end": f"{math.pi / 2.0!r} s"})
+            .replace('question = "static"', '')
         cycles = 4.5 + 1.0 / 16.0  # five periods: nine halves from end to end, two of half the range
         known = cycles / 1e6 * (1e5 / AREA / 100e6) ** 4
-        self.assertLess(abs(found["fatigue"] / known - 1.0), 0.03)
+        for look, step in ((1e-3, 'step = "1 ms"\n'), (math.pi / 10.0, 'step = "1 ms"\n'), (math.pi / 10.0, "")):
+            found, _ = sampled(failure("fatigue", curve_stress="100 MPa", slope=4, curve_cycles=1e6),
+                               text.replace('step = "1 ms"\n', step),
+                               {"load.moment": [0, 0, 0], "string[0].pipes.count": 2, "run.end": f"{math.pi / 2.0!r} s",
+                                "variability.look": f"{look!r} s"})
+            self.assertLess(abs(found["fatigue"] / known - 1.0), 0.03, (look, step))
+        with self.assertRaisesRegex(AssertionError, "beyond the range of counting"):
+            sampled(failure("fatigue", curve_stress="100 MPa", slope=4), text + '[limits]\nyield_stress = "1 MPa"\n',
+                    {"load.moment": [0, 0, 0], "string[0].pipes.count": 2})
 
     def test_own(self):
         with tempfile.TemporaryDirectory() as folder:

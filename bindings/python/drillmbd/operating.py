@@ -91,11 +91,12 @@ def has_rock_law(scene: Scene) -> bool:
     return any(name == "add_bit" and _law(arguments[0]) != enums.ROCK_NONE for name, arguments in scene.model.calls)
 
 
-def polar_moduli(scene: Scene) -> list[float]:
-    """[m3] J/r of the bodies of all pipes, torque over shear stress at the outer surface."""
+def polar_moduli(scene: Scene, string: int | None = None) -> list[float]:
+    """[m3] J/r of the bodies of all pipes, or of those of the string of a number, torque over shear stress at the outer
+    surface."""
     found = []
     for name, arguments in scene.model.calls:
-        if name == "add_pipes":
+        if name == "add_pipes" and (string is None or _is_of(arguments[1].get("string"), string)):
             pipe: Any = _structs.PipeDef(**{key: value for key, value in arguments[1].items()
                                             if key in ("outer_diameter", "inner_diameter")})
             found.append(math.pi / 16.0 * (pipe.outer_diameter ** 4 - pipe.inner_diameter ** 4) / pipe.outer_diameter)

@@ -65,7 +65,9 @@ def _lock_up(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
 
 def _stick_slip(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
     mean = mean_in_time(times, abs(s["spin"]))
-    return float(s["spin"].max() - s["spin"].min()) / (2.0 * mean) if mean > 0.0 else 0.0
+    if mean == 0.0:
+        raise ArithmeticError("stick-slip: not assessed, because the bit does not turn")
+    return float(s["spin"].max() - s["spin"].min()) / (2.0 * mean)
 
 
 def _from_zero(values: Any) -> float:
@@ -239,16 +241,19 @@ class Watch:
         name = one.names["string"]
         values: dict[str, Any] = {key: one.values[key] for key in ("curve_stress", "curve_cycles", "slope", "endurance",
                                                                    "concentration")}
-        values["stress_range"] = 2.0 * self.scene.limits.get("yield_stress", 5e8)
+        values["stress_range"] = 2.0 * values["concentration"] * self.scene.limits.get("yield_stress", 5e8)
         return self.sim.string_fatigue(self.scene.names[name], self.scene.pipes[name], **values)
+
+    def count(self) -> None:
+        """Cycles of stress: after each step, because looks may be a cycle apart."""
+        for counter in self.counters.values():
+            counter.take()
 
     def look(self) -> None:
         """One more."""
         self.times.append(self.sim.time)
         if self.recorder is not None:
             self.recorder.take()
-        for counter in self.counters.values():
-            counter.take()
         self.rows.append(self._extremes())
 
     def _extremes(self) -> list[float]:
@@ -270,7 +275,11 @@ class Watch:
         for signal, (part, quantity, what) in HOW[failure.kind].signals.items():
             key = (failure.names[part], int(quantity), what)
             if what == "damage":
-                worst = max(one.damage for one in self.counters[failure.name].results)
+                results = self.counters[failure.name].results
+                worst = max(one.damage for one in results)
+                if any(one.clipped for one in results) and worst < failure.limit:
+                    raise ArithmeticError(f"{failure.name}: not assessed, because cycles of stress beyond the range of "
+                                          "counting are missed; raise yield_stress of [limits]")
                 found[signal] = numpy.full(len(self.times), worst)
             elif what == "":
                 assert table is not None
@@ -280,11 +289,11 @@ class Watch:
         return found
 
     def margins(self, more: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-        """Margin and demand of each failure, by its name; more: added to demands by kind, for parts that a static state
+        """Margin and demand of each failure, by its name; more: added to demands by name, for parts that a static state
         lacks."""
         times, found = need("numpy").array(self.times), {}
         for one in self.failures:
-            demand = (margin(one, times, self.signals(one))[1] + more.get(one.kind, 0.0)
+            demand = (margin(one, times, self.signals(one))[1] + more.get(one.name, 0.0)
                       / one.values.get("strength", 1.0))
             found[one.name] = (margin_of(one, demand), demand)
         return found

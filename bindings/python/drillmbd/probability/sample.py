@@ -93,6 +93,12 @@ def string_of(scene: Scene, part: str, made: Any) -> str:
     return next((name for name in scene.pipes if scene.names[name] == string), next(iter(scene.pipes), ""))
 
 
+def _lacking(state: statics.State) -> dict[str, float]:
+    """Parts of the demands that a static state lacks, by the name of the failure."""
+    return {one.name: state.torque.get((string_of(state.scene, *next(iter(one.parts.items()))), one.kind), 0.0)
+            for one in state.scene.failures if one.parts}
+
+
 @dataclass
 class SceneSample:
     """evaluate(number, z) -> Result, of a scene given as text."""
@@ -258,13 +264,13 @@ class SceneSample:
         found = []
         for state in statics.states(scene):
             with statics.at_rest(state) as sim:
-                found.append(self._looked(state.scene, sim, values, 0.0, 1.0, state.torque))
+                found.append(self._looked(state.scene, sim, values, 0.0, 1.0, _lacking(state)))
         return [worst(one) for one in zip(*found)]
 
     def _looked(self, scene: Scene, sim: Any, values: dict[str, Any], end: float, look: float, more: Mapping[str, float]
                 ) -> list[tuple[float, float]]:
-        """Margins and demands of a sim from now to `end` [s]; more: of demands, the parts that the sim lacks, by
-        kind."""
+        """Margins and demands of a sim from now to `end` [s]; more: of demands, the parts that the sim lacks, by the
+        failure's name."""
         watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.outputs],
                                 int(end / look) + 4) \
@@ -283,17 +289,22 @@ class SceneSample:
             watch.look()
             if recorder is not None:
                 recorder.take()
+        watch.count()
         take()
         step = scene.run.get("step")
         if step:
             count, each = max(0, round(end / step)), max(1, round(look / step))
+            stretch = 1 if watch.counters else each
             for number in range(0, count, each):
-                sim.steps(step, min(each, count - number))
+                last = min(number + each, count)
+                for begin in range(number, last, stretch):
+                    sim.steps(step, min(stretch, last - begin))
+                    watch.count()
                 take()
             return
         count = math.ceil(end / look - 1e-9) if end > 0.0 else 0
         for number in range(1, count + 1):
-            sim.run_noting(min(number * look, end))
+            sim.run_noting(min(number * look, end), counters=list(watch.counters.values()))
             take()
 
     def _beside(self, one: Failure, scene: Scene, sim: Any, values: dict[str, Any], watch: Any,

@@ -27,7 +27,8 @@ class State:
     name: str
     scene: Scene                 #: with the loads of the state at time 0
     slip: dict[str, float]
-    torque: dict[str, float]     #: by kind of failure, what its demand lacks of the torque of the bit
+    #: by string and kind of failure, what the demand lacks of the torque of the bit
+    torque: dict[tuple[str, str], float]
 
 
 def _loaded(scene: Scene) -> Scene:
@@ -51,6 +52,19 @@ def _loaded(scene: Scene) -> Scene:
                    outputs=[(name, model.own(place), quantity) for name, place, quantity in scene.outputs])
 
 
+def _torques(scene: Scene) -> dict[tuple[str, str], float]:
+    """[N m, Pa] Of each string the torque of its own bit; of one without a load on a bit the largest of all bits, which
+    joints may pass on to it. Stresses: von Mises of sums <= sum."""
+    plans = [operating(scene, number) for number in range(len(scene.pipes))]
+    largest = max((plan.torque_on_bit for plan in plans), default=0.0)
+    found = {}
+    for number, (name, plan) in enumerate(zip(scene.pipes, plans)):
+        torque = largest if plan.weight_on_bit is None else plan.torque_on_bit
+        stress = math.sqrt(3.0) * torque / min(polar_moduli(scene, number), default=math.inf)
+        found.update({(name, "rig-torque"): torque, (name, "connection-torque"): torque, (name, "stress"): stress})
+    return found
+
+
 def states(scene: Scene) -> list[State]:
     """Of a scene; without a drive of rotation only pushed in and pulled out."""
     plan, given = operating(scene), scene.analyses.get("static", {})
@@ -60,10 +74,7 @@ def states(scene: Scene) -> list[State]:
     found = [State("pushed in", loaded, {"slip_axial": speed}, {}), State("pulled out", scene, {"slip_axial": -speed},
                                                                           {})]
     if any(name == "add_drive" and arguments[0].get("component") == enums.RX for name, arguments in scene.model.calls):
-        # von Mises of sums <= sum
-        stress = math.sqrt(3.0) * plan.torque_on_bit / min(polar_moduli(scene), default=math.inf)
-        found.append(State("rotated", loaded, {"slip_rotation": rotation}, {
-            "rig-torque": plan.torque_on_bit, "connection-torque": plan.torque_on_bit, "stress": stress}))
+        found.append(State("rotated", loaded, {"slip_rotation": rotation}, _torques(scene)))
     return found
 
 
