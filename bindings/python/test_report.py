@@ -64,6 +64,8 @@ place = {part = "main", pipe = 4}
 quantity = "vibration-z"
 limit = "1 m"
 """
+OTHER_STRING = ('[[string]]\nname = "other"\nstart_free = []\n[[string.pipes]]\ncount = 2\neccentricity = "1 mm"\n'
+                '[[bit]]\nstring = "main"')
 FATIGUE = re.compile(r"\[fatigue\].*?(?=\[speeds\])", re.DOTALL)
 STUDY = """[variability]
 seed = 3
@@ -397,12 +399,12 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(with_strength["Von Mises stress"].verdict, "OK")
 
     def test_nonlinear_buckling(self):
-        """OK only for a confirmed factor well above 1."""
+        """The string buckles at 1 + factor times the present loads: OK only for a confirmed factor above 0.25, without
+        flutter before it, and where flutter was assessed."""
         class Found:
-            status = 0
-
-            def __init__(self, factors, confirmed):
-                self.factors, self.info = factors, unittest.mock.Mock(confirmed=confirmed)
+            def __init__(self, factors, **info):
+                self.factors, self.status = factors, info.pop("status", 0)
+                self.info = unittest.mock.Mock(**{"confirmed": 1, "flutter": enums.FLUTTER_NOT_JUDGED, **info})
 
             def __enter__(self):
                 return self
@@ -410,12 +412,44 @@ class VerdictTest(unittest.TestCase):
             def __exit__(self, *_):
                 pass
 
-        def verdict_of(factors, confirmed=1):
+        def verdict_of(factors, part=None, **info):
             made = unittest.mock.MagicMock()
-            made.new_sim().__enter__().buckling.return_value = Found(factors, confirmed)
+            made.new_sim().__enter__().buckling.return_value = Found(factors, **info)
+            made.fields_of.return_value = {"part": part} if part else {}
             return report_linear.buckling_tile(made, lambda sim: None, unittest.mock.MagicMock()).verdict
-        self.assertEqual([verdict_of([2.0]), verdict_of([1.2]), verdict_of([0.9]), verdict_of([2.0], 0),
-                          verdict_of([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
+        flutter = {"flutter": enums.FLUTTER_FOUND}
+        self.assertEqual([verdict_of([2.0]), verdict_of([0.26]), verdict_of([0.24]), verdict_of([2.0], confirmed=0),
+                          verdict_of([])], ["OK", "OK", "NEAR LIMIT", "NOT ASSESSED", "NOT ASSESSED"])
+        self.assertEqual([verdict_of([2.0], flutter_factor=0.0, **flutter),
+                          verdict_of([], flutter_factor=0.2, **flutter),
+                          verdict_of([2.0], status=enums.NOTE_INCOMPLETE),
+                          verdict_of([2.0], part=Id(enums.PART_DRIVE << 24, 1))],
+                         ["OVER", "NEAR LIMIT", "NOT ASSESSED", "NOT ASSESSED"])
+
+    def test_largest_sinusoidal_share(self):
+        """Of all operations, not of that with the largest helical share: their ratio differs along the hole."""
+        described = scene.loads(SCENE)
+        made = report.Study(described, results.CommandOutput(None, "x.toml", described, "report", True))
+        for sinusoidal, wanted in ((1.2, "NEAR LIMIT"), (0.8, "OK")):
+            made._confinement([unittest.mock.Mock(helical_share=one, sinusoidal_share=other, buckled_at=1.0, locked=0)
+                               for one, other in ((0.6, 0.85), (0.55, sinusoidal))])
+            self.assertEqual(made.tiles[-1].verdict, wanted)
+
+    def test_rigid_pipes(self):
+        """They have no stress, so that the others alone are not cleared."""
+        text = FATIGUE.sub("", SCENE.replace('eccentricity = "1 mm"',
+                                              'eccentricity = "1 mm"\n[[string.pipes]]\nkind = "rigid"'))
+        tile = self.study(text)[1]["Von Mises stress"]
+        self.assertEqual(tile.verdict, "NOT ASSESSED", tile)
+        self.assertIn("rigid pipes, which have no stress", tile.text)
+
+    def test_nonlinear_buckling_decides_on_the_load(self):
+        with unittest.mock.patch.object(report, "buckling_tile", return_value=verdict.Tile(
+                "Buckling, nonlinear", "", "", "NEAR LIMIT")):
+            made, _ = self.study(SCENE.replace('"0 m/s"', '"1 mm/s"') + "[buckling]\n")
+        rows = {row[0]: row[3] for row in made.rows}
+        self.assertEqual((rows["Load on the bit"], rows["Feed rate"], rows["Pull at the rig"]),
+                         ("NEAR LIMIT", "NEAR LIMIT", "OK"))
 
     def test_rows_for_the_crew(self):
         """Load on the bit and feed are cleared with what they cause only; the page says not to drill where a value is
@@ -453,9 +487,7 @@ class VerdictTest(unittest.TestCase):
 
     def test_two_strings(self):
         """Analyses of one string clear nothing of a scene with two."""
-        text = SCENE.replace('[[bit]]',
-                             '[[string]]\nname = "other"\nstart_free = []\n[[string.pipes]]\ncount = 2\neccentricity = '
-                             '"1 mm"\n[[bit]]\nstring = "main"')
+        text = SCENE.replace("[[bit]]", OTHER_STRING)
         self.assertEqual(len(scene.loads(text).pipes), 2)
         tiles = self.study(text)[1]
         for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress",
@@ -492,6 +524,18 @@ class VerdictTest(unittest.TestCase):
         clipped = endless.replace('endurance = "90 MPa"', 'endurance = "90 MPa"\nstress_range = "1 kPa"')
         self.assertNotEqual(self.study(clipped)[1]["Fatigue"].verdict, "OK")
         self.assertEqual(self.study(SCENE)[1]["Fatigue"].verdict, "NO LIMIT GIVEN")
+
+    def test_fatigue_of_the_worst_string(self):
+        """Not of the first one only; the cycles of all strings are counted."""
+        text = SCENE.replace("[[bit]]", OTHER_STRING)
+        for damage, wanted in ((0.0, "main"), (1e-3, "other")):
+            def found(counters, out, damage=damage):
+                return {name: unittest.mock.Mock(damage=one, largest_range=1e6, life=1.0 / one if one else math.inf)
+                        for name, one in zip(counters, (0.0, damage))}
+            with unittest.mock.patch.object(report, "report_fatigue", found):
+                tile = self.study(text)[1]["Fatigue"]
+            self.assertTrue(tile.text.startswith(f"string {wanted}: "), tile)
+            self.assertEqual(tile.verdict, "NO LIMIT GIVEN" if damage else "OK")
 
 
 class OperatingTest(unittest.TestCase):

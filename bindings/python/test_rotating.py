@@ -103,6 +103,39 @@ class LinearStateTest(SpeedsTest):
     """One linear state for response and speeds."""
     SCENE = SCENE
 
+    def test_what_the_analysis_leaves_out(self):
+        """Pipes that are not round: response and speeds neglect what changes as they turn, so that no speed is free;
+        modes that are not found are missing."""
+        A, I, E = math.pi / 4.0 * (0.073 ** 2 - 0.059 ** 2), math.pi / 64.0 * (0.073 ** 4 - 0.059 ** 4), 2.1e11
+        for softer, whole in ((1.0, True), (0.7, False)):
+            stiffness = [f"{one} N" for one in (E * A, 0.2 * E * A, 0.2 * E * A)] + [
+                f"{one} N m^2" for one in (0.77 * E * I, E * I, softer * E * I)]
+            self.scene = self.write("flat.toml", SCENE.replace(
+                'eccentricity = "0.5 mm"', f'eccentricity = "0.5 mm"\nsection_stiffness = {stiffness}')
+                .replace("threshold = 100", "threshold = 1e6"))
+            out, summary = self.results("speeds")
+            self.assertEqual(("no critical speed between" in out, summary["speeds_assessed"]), (whole, whole), out)
+            self.assertEqual("the rotor must be round" in " ".join(summary["notes"]), not whole)
+            self.assertEqual("the rotor must be round" in self.results("response")[0], not whole)
+        self.assert_no_verdict()
+        self.scene = self.write("thick.toml", SCENE.replace('eccentricity = "0.5 mm"', 'damping_time = "1 s"')
+                                + '[modes]\nkind = "damped"\n')
+        self.assertNotIn("was not found", self.results("modes", "--count", "10")[0])
+        self.assertIn("was not found sharply", self.results("modes", "--count", "40")[0])
+
+    def test_more_bands_than_room(self):
+        """A speed in a band that is left out would be free."""
+        real = mbd.Sim.speeds
+
+        def speeds(sim, *given, room=1, **options):
+            return real(sim, *given, room=room, **options)
+        scene = scenes.load(self.scene, {"speeds.threshold": 1000, "speeds.margin": 0,
+                                         "speeds.order": [{}, {"order": 2}]})
+        with unittest.mock.patch.object(mbd.Sim, "speeds", speeds):
+            found = critical_speeds.analyse(scene, lambda sim, state: sim.static(**state.static), self.fail)
+        self.assertGreater(len(found.bands), 1)
+        self.assertEqual(len(found.bands), found.bands.report.bands)
+
     def test_response_and_speeds_agree(self):
         """The amplitude of one quantity at one frequency is the same number in both."""
         for change in ({}, {"time_function[0].segment.h1": "170 rpm"}, {"bit[0].load": "5 kN"}):

@@ -114,11 +114,10 @@ class Analyses(AnalysisCalls):
                 options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
             given, requested, handle = (row_of(Excitation, excitations, "excitations"),
                                         outputs_of(outputs, self._parts, "response"), c_void_p())
-            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), requested,
-                                   len(outputs),
-                                                   byref(handle)))
+            status = self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations),
+                                            requested, len(outputs), byref(handle)))
             return Response(handle, [one.amplitude for one in given],
-                            [output_text(one, self._handle) for one in requested])
+                            [output_text(one, self._handle) for one in requested], status)
 
         @mirrors("dmb_analysis_stepped_sine")
         def stepped_sine(self, frequency: float, outputs: Sequence[Any], options: Any = None,
@@ -142,8 +141,8 @@ class Analyses(AnalysisCalls):
             """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of
             Mode."""
             options, handle = struct(ModesOptions, options, fields), c_void_p()
-            self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
-            return Modes(handle, self)
+            status = self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
+            return Modes(handle, self, status)
 
         @mirrors("dmb_analysis_speeds")
         def speeds(self, orders: Sequence[Order], outputs: Sequence[Any], limits: Sequence[float], room: int = 64,
@@ -302,12 +301,13 @@ class TorqueDrag:
 # ---- Frequency response ----------------------------------------------------------------------------------------------
 class Response(Handle):
     """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, excitations and outputs;
-    `amplitudes`: of the excitations, as they were given; `names` of the outputs with their units, "vibration_z of
+    `amplitudes`: of the excitations, as they were given; `status`: NOTE_INCOMPLETE where it neglects effects;
+    `names` of the outputs with their units, "vibration_z of
     string main pipe 3 at 0.5 [m]"."""
     _kind = "response"
 
-    def __init__(self, handle: c_void_p, amplitudes: list[float], names: list[str]) -> None:
-        self._handle, self.amplitudes, self.names = handle, amplitudes, names
+    def __init__(self, handle: c_void_p, amplitudes: list[float], names: list[str], status: int = 0) -> None:
+        self._handle, self.amplitudes, self.names, self.status = handle, amplitudes, names, status
         shape = (c_uint32 * 3)()
         check(_lib.dmb_response_dimensions(handle, shape))
         self.shape = tuple(shape)  # points, excitations, outputs
@@ -398,11 +398,12 @@ class Buckling(Shaped):
 
 # ---- Modes -----------------------------------------------------------------------------------------------------------
 class Modes(Shaped):
-    """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
+    """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes). status is NOTE_INCOMPLETE
+    where fewer than requested were found."""
     _kind = "modes"
 
-    def __init__(self, handle: c_void_p, sim: Any) -> None:
-        self._handle, self._scene, self._parts = handle, sim._scene, sim._parts
+    def __init__(self, handle: c_void_p, sim: Any, status: int = 0) -> None:
+        self._handle, self._scene, self._parts, self.status = handle, sim._scene, sim._parts, status
         self.info = ModesInfo()
         check(_lib.dmb_modes_get_info(handle, byref(self.info)))
 

@@ -2,6 +2,7 @@
 speeds run in time."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,7 +10,8 @@ from . import _structs, enums, no_response, rotating, speed_check, speed_range
 from ._structs import Output, Place
 from .results import RPM, CommandOutput
 from .errors import Usage
-from .language import Phrase, phrase
+from .enums import Status
+from .language import Foreign, Phrase, phrase
 from .operating import operating
 from .rotating import Linear
 from .scene import Scene
@@ -33,6 +35,7 @@ class Found:
     state: Linear
     silent: Phrase | None = None   #: why nothing moves the outputs
     unmoved: list[int] = field(default_factory=list)   #: numbers of outputs that nothing moves, where another moves
+    neglects: str = ""       #: sentence about effects that the linear analysis leaves out
 
     @property
     def whole(self) -> bool:
@@ -42,8 +45,9 @@ class Found:
 
     @property
     def partial(self) -> bool:
-        """True if an order or an output has no response: no speed is free of critical ones then."""
-        return bool(self.unmoved or self.bands.report.silent_orders)
+        """True if an order or an output has no response, or the analysis neglects something: no speed is free of
+        critical ones then."""
+        return bool(self.unmoved or self.bands.report.silent_orders or self.neglects)
 
 
 def analyse(scene: Scene, settle: Any, note: Any) -> Found:
@@ -54,15 +58,18 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
     limits = [one["limit"] for one in settings["output"]]
 
     def compute(sim: Sim, state: Linear) -> Any:
-        bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits,
-                                     **state.options)
-        return bands, severity, no_response.of_speeds(sim, state.scene, state.options)
+        given = state.scene.orders(), state.scene.response_outputs("speeds"), limits
+        bands, severity = sim.speeds(*given, **state.options)
+        if bands.report.bands > len(bands):  # a speed of a band that is left out would be free
+            bands, severity = sim.speeds(*given, room=bands.report.bands, **state.options)
+        neglects = re.search(r"response: .*", sim.message) if bands.status == Status.NOTE_INCOMPLETE else None
+        return bands, severity, neglects[0] if neglects else "", no_response.of_speeds(sim, state.scene, state.options)
 
-    state, (bands, severity, reasons) = rotating.linear(scene, "speeds", settle, compute, note)
+    state, (bands, severity, neglects, reasons) = rotating.linear(scene, "speeds", settle, compute, note)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
     silent = no_response.of_all(reasons)
     unmoved = [] if silent else [number for number, reason in enumerate(reasons) if reason is not None]
-    return Found(bands, severity, grid, used.threshold, state, silent, unmoved)
+    return Found(bands, severity, grid, used.threshold, state, silent, unmoved, Foreign(neglects) if neglects else "")
 
 
 def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
@@ -102,9 +109,15 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
         out.say("speeds: not assessed for all outputs; of the others the amplitudes are at most "
                 f"{max(found.severity):.3g} times their limits between "
                    f"{low:.0f} and {high:.0f} rpm")
+    elif not found.bands and found.neglects:
+        out.say("speeds: not assessed, because the linear analysis leaves out effects of the rotation; without them "
+                f"the amplitudes are at most {max(found.severity):.3g} times their limits between {low:.0f} and "
+                f"{high:.0f} rpm")
     elif not found.bands:
         out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the amplitudes are at most "
                 f"{max(found.severity):.3g} times their limits")
+    if found.neglects:
+        out.note_text(out.units.sentence(found.neglects))
     for number in found.unmoved:
         out.say(f"{out.units.head(names[number])}: not assessed, because {no_response.NO_RESPONSE}")
     out.say(LINEAR)

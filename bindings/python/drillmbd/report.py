@@ -10,6 +10,7 @@ from typing import Any
 from . import __version__, enums, commands
 from ._optional import need
 from ._progress import INTERRUPTS
+from ._structs import FatigueResult
 from .results import CommandOutput, count_fatigue, finite, note_bounces, note_steps, report_fatigue
 from .enums import Status
 from .errors import Error, Usage
@@ -82,9 +83,9 @@ class Study:
         self._other_strings()
         self.tiles[:0] = [demand.tile() for demand in self.demands.values()]
         self._attempt(phrase("Critical speeds"), (), self._speeds)
-        self.rows = limits_at_the_rig(self.demands, self.tiles, self.speeds, self.plan, self.units)
         if "buckling" in self.scene.analyses:
             self._attempt(phrase("Buckling, nonlinear"), (), self._buckling)
+        self.rows = limits_at_the_rig(self.demands, self.tiles, self.speeds, self.plan, self.units)
         with self.scene.new_sim() as sim:
             self.check = sim.check_text()
             self.understood = [self.units.sentence(one) for one in words.describe(self.scene, sim.momentum().mass)]
@@ -108,14 +109,14 @@ class Study:
                         for value, source in demand.found]
 
     def _other_strings(self) -> None:
-        """Analyses of one string see the first one only."""
+        """Analyses of one string see the first one only; fatigue is counted in all of them."""
         others = joined(", ", [name for name in self.scene.pipes if name != self.string])
         if others:
             for demand in self.demands.values():
                 demand.failed.append(phrase("other strings ({strings}), which the analyses of one string leave out",
                                             strings=others))
             for tile in self.tiles:
-                if tile.verdict == OK:
+                if tile.verdict == OK and tile.title != phrase("Fatigue"):
                     tile.verdict, tile.text = (NOT_ASSESSED, phrase("of string {string} only; {text}",
                                                                     string=self.string, text=tile.text))
 
@@ -192,6 +193,9 @@ class Study:
         source = phrase("stiff string, {operation}, loads of time 0 s", operation=name)
         self.demands[key].add(at_rig, source)
         stress = _largest(found["von_mises"])
+        if any(math.isnan(one) for one in found["von_mises"]) and math.isnan(self._yield_strength()):
+            self.demands["yield_stress"].failed.append(phrase("{source}: rigid pipes, which have no stress",
+                                                              source=source))
         if stress is not None:
             self.demands["yield_stress"].add(stress, source)
 
@@ -264,7 +268,8 @@ class Study:
                                    phrase("the shares of the buckling loads are not defined for this string"),
                                    NOT_ASSESSED))
         else:
-            helical, sinusoidal, depth, number = max(free)
+            helical, _, depth, number = max(free)
+            sinusoidal = max(share for _, share, *_ in free)
             if not self.plan.weight_on_bit:
                 verdict, text = NOT_ASSESSED, phrase("the scene gives no bit load")
             else:
@@ -364,20 +369,14 @@ class Study:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"),
                                    NOT_ASSESSED))
             return
-        found, counter = report_fatigue(counters, self.out)[self.string], counters[self.string]
+        worst = report_fatigue(counters, self.out)
+        string = max(worst, key=lambda one: (worst[one].damage, worst[one].largest_range))
+        counter = counters[string]
         pipe = counter.pipes[counter.worst]
-        if found.largest_range <= 0.0:
-            self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
-        elif math.isfinite(found.life):
-            self.tiles.append(Tile(title, duration(found.life), phrase(
-                "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve",
-                pipe=pipe),
-                OVER if found.damage > 1.0 else NO_LIMIT))
-        else:
-            text = phrase("in this run; largest range {range}, pipe {pipe}",
-                          range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
-            clipped = any(one.clipped for one in counter.results)
-            self.tiles.append(Tile(title, phrase("no damage"), text, NOT_ASSESSED if clipped else OK))
+        self.tiles.append(self._fatigue_tile(worst[string], pipe, any(one.clipped for each in counters.values()
+                                                                      for one in each.results)))
+        if len(counters) > 1:
+            self.tiles[-1].text = phrase("string {string}: {text}", string=string, text=self.tiles[-1].text)
         self.figures.append((phrase("Fatigue along the string"),
                              phrase("Damage of this run by the S-N curve of the scene; 1 is its end."), {
             "data": [line(counter.pipes, [one.damage for one in counter.results], phrase("damage"), 0)],
@@ -393,6 +392,19 @@ class Study:
                       "marker": {"color": COLOURS[1]}}], "layout": {
                           "xaxis": {"title": {"text": phrase("stress range [{unit}]", unit=self.units.unit("MPa"))}},
                           "yaxis": {"title": {"text": phrase("cycles [-]")}, "rangemode": "tozero"}}}))
+
+    def _fatigue_tile(self, found: FatigueResult, pipe: int, clipped: bool) -> Tile:
+        """Of the worst pipe. A run that was stopped shows no part of the cycles of its rest."""
+        title = phrase("Fatigue")
+        if found.largest_range <= 0.0:
+            return Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED)
+        if math.isfinite(found.life):
+            return Tile(title, duration(found.life), phrase(
+                "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve",
+                pipe=pipe), OVER if found.damage > 1.0 else NO_LIMIT)
+        text = phrase("in this run; largest range {range}, pipe {pipe}",
+                      range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
+        return Tile(title, phrase("no damage"), text, NOT_ASSESSED if clipped or self.out.interrupted else OK)
 
     def _frames(self, sim: Sim, course: Frames, counters: dict[str, StringFatigue]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")

@@ -11,7 +11,7 @@ from .operating import BIT_FRICTION, Operating
 from .report_linear import Speeds
 from .scene import Scene
 from .unit_systems import Units
-from .verdict import NOT_ASSESSED, Demand, Tile, shown, worst
+from .verdict import NOT_ASSESSED, OK, Demand, Tile, shown, worst
 
 NAMES_OF = {"si": phrase("SI"), "field": phrase("field units (ft, lbf, psi)"),
             "mine": phrase("mine units (m, kN, MPa)")}
@@ -61,7 +61,7 @@ def limits_at_the_rig(demands: dict[str, Demand], tiles: list[Tile], speeds: Spe
                                      ranges)) if ranges else phrase("no assessed speed is free of critical speeds")
         rows.append((phrase("Rotary speed"), limit, rotation, speed))
     decided = worst([verdicts[demand.title] for key, demand in demands.items() if key != "pull"]
-                    + [verdicts.get("Buckling in the hole", NOT_ASSESSED)])
+                    + [verdicts.get("Buckling in the hole", NOT_ASSESSED), verdicts.get("Buckling, nonlinear", OK)])
     return [*rows, _planned(phrase("Load on the bit"), units.text((plan.weight_on_bit or 0.0) / 1e3, "kN"),
                             plan.weight_on_bit, decided),
             _planned(phrase("Feed rate"), units.text(1e3 * (plan.feed or 0.0), "mm/s"), plan.feed, decided)]

@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from . import enums
 from .results import RPM, CommandOutput
 from .critical_speeds import LINEAR, analyse, left_out
+from .enums import Status
 from .language import Phrase, joined, phrase
 from .no_response import NOTHING_EXCITES
 from .operating import Operating
@@ -30,6 +32,7 @@ class Speeds:
     refused: bool = False  #: the sliding state has no solution, that at rest takes its place
     silent: Phrase | None = None  #: why nothing moves the outputs
     unmoved: Sequence[str] = ()   #: names of outputs that nothing moves, where another moves
+    neglects: str = ""            #: sentence about effects that the analysis leaves out
 
     @property
     def assessed(self) -> bool:
@@ -38,9 +41,9 @@ class Speeds:
 
     @property
     def partial(self) -> bool:
-        """True if an order or an output has no response, or the sliding state no solution: a speed in no band is not
-        free of critical ones."""
-        return bool(self.bands.report.silent_orders or self.unmoved or self.refused)
+        """True if an order or an output has no response, the sliding state no solution, or the analysis leaves effects
+        out: a speed in no band is not free of critical ones."""
+        return bool(self.bands.report.silent_orders or self.unmoved or self.refused or self.neglects)
 
     def avoid(self) -> str:
         """The bands in words."""
@@ -51,7 +54,7 @@ class Speeds:
 
     def notes(self) -> list[str]:
         """Parts that the analysis leaves out."""
-        return left_out(self.bands.report)
+        return [*left_out(self.bands.report), *([self.neglects] if self.neglects else [])]
 
     def _band(self, band: Any) -> str:
         """A band that reaches an end of the range may continue beyond it."""
@@ -79,7 +82,7 @@ def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
     found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
     names = [one["name"] for one in scene.analyses["speeds"]["output"]]
     return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent,
-                  [names[number] for number in found.unmoved])
+                  [names[number] for number in found.unmoved], found.neglects)
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:
@@ -113,6 +116,8 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     if found.refused:
         remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; "
                          "{text}", text=remarks)
+    if found.neglects:
+        remarks = phrase("the linear analysis leaves out effects of the rotation; {text}", text=remarks)
     return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if found.partial else OK)
 
 
@@ -130,19 +135,40 @@ def speeds_figure(found: Speeds) -> Figure:
 
 
 def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], out: CommandOutput) -> Tile:
-    """The lowest critical factor of [buckling]; never OK where none was found, or it was not confirmed."""
+    """The lowest critical factor of [buckling]: the string becomes unstable at 1 + factor times the present loads.
+    Never OK where none was found, it was not confirmed, or flutter could not be assessed."""
+    values = scene.fields_of("buckling")
     with scene.new_sim() as sim:
         to_rest(sim)
-        with sim.buckling(**scene.fields_of("buckling")) as found:
+        with sim.buckling(**values) as found:
             out.note(found.status, phrase("buckling"))
             factor = found.factors[0] if found.factors else None
-            confirmed = found.info.confirmed > 0
+            confirmed, seen = found.info.confirmed > 0, found.status != Status.NOTE_INCOMPLETE
+            flutter = found.info.flutter_factor if found.info.flutter == enums.FLUTTER_FOUND else None
     out.summary["buckling_factor"] = factor
     title = phrase("Buckling, nonlinear")
+    if flutter is not None and (factor is None or flutter < factor):
+        return Tile(title, phrase("factor {factor:.4g}", factor=flutter),
+                    phrase("vibrations grow by themselves (flutter) from this factor of the loads in [buckling] on"),
+                    _share_verdict(flutter, values, True))
     if factor is None:
         return Tile(title, phrase("none found"), phrase("no critical factor within the searched range"), NOT_ASSESSED)
-    text = (phrase("lowest critical factor of the loads in [buckling]; confirmed on the equilibrium path") if confirmed
+    text = (phrase("lowest critical factor of the loads in [buckling], on top of the present ones; confirmed on the "
+                   "equilibrium path") if confirmed
             else
-            phrase("lowest critical factor of the loads in [buckling]; extrapolated, not confirmed"))
+            phrase("lowest critical factor of the loads in [buckling], on top of the present ones; extrapolated, not "
+                   "confirmed"))
+    if not seen:
+        text = phrase("{text}; flutter was not assessed", text=text)
     return Tile(title, phrase("factor {factor:.4g}", factor=factor), text,
-                OVER if factor < 1.0 else NEAR if factor < 1.0 / NEAR_SHARE else OK if confirmed else NOT_ASSESSED)
+                _share_verdict(factor, values, confirmed and seen))
+
+
+def _share_verdict(factor: float, values: Any, assured: bool) -> str:
+    """By the present loads over the critical ones, 1/(1 + factor). A drive has a factor with a unit, whose present
+    force is no part of it."""
+    part = values.get("part")
+    if part and part.index >> 24 == enums.PART_DRIVE:
+        return NOT_ASSESSED
+    share = 1.0 / (1.0 + factor)
+    return OVER if share >= 1.0 else NEAR if share > NEAR_SHARE else OK if assured else NOT_ASSESSED
