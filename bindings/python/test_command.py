@@ -199,6 +199,10 @@ class CommandTest(FolderTest):
         self.assertLess(changes[1], changes[0])
         self.scene = self.write("rig.toml", SCENE.replace('step = "1 ms"\n', ""))
         self.assertIn("--verify needs a given step", self.call("run", self.scene, "--verify", status=2))
+        self.scene = self.write("rig.toml", SCENE.replace('[hole]\ndiameter = "94 mm"\n', "").replace(
+            "[[output]]", '[[output]]\nname = "share"\nquantity = "profile-helical-share"\nplace = {part = "main", '
+            'pipe = 1}\n[[output]]', 1))
+        self.assertIn("verification: share cannot be compared", self.call("run", self.scene, "--verify"))
 
     def test_fatigue(self):
         """The worst pipe against stresses of the same run that are counted here: half cycles of a monotone load."""
@@ -507,6 +511,8 @@ inner_diameter = "55 mm"
         for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"],
                       ["--overpull", "-1 kN", "--stretch", "1 mm"]):
             self.call("stuck", self.scene, *words, status=2)
+        self.scene = self.write("two.toml", SCENE + '[[string]]\nname = "other"\n[[string.pipes]]\n')
+        self.assertIn("stuck is about the string main; other: not assessed", self.call("stuck", self.scene))
 
     def test_sweep(self):
         self.call("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary",

@@ -160,17 +160,20 @@ class LastPart:
                 f"{500.0 * self.step:g} ms; largest magnitudes:")
         outputs: dict[str, Any] = {}
         changed: list[str] = []
+        unknown: list[str] = []
         units = out.units
         heads = self.recorder.columns if units.name == "si" else ["", *self.scene.output_heads()]
         for column, name in enumerate(self.recorder.columns[1:], 1):
             first, second = (float(abs(one.table[:, column]).max()) for one in (self.recorder, again))
-            larger = max(first, second)
-            change = (second - first) / larger if larger > 0.0 else 0.0
+            larger = math.nan if math.isnan(first + second) else max(first, second)
+            change = 0.0 if larger == 0.0 else (second - first) / larger
             outputs[name] = {"step": first, "half_step": second, "change": change}
             head, factor = heads[column], units.factor_of(heads[column])
             out.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} "
                     f"({100.0 * change:+.2g} %)")
-            if abs(change) > NOTABLE:
+            if math.isnan(change):
+                unknown.append(name)
+            elif abs(change) > NOTABLE:
                 changed.append(name)
         out.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step,
                                        "outputs": outputs}
@@ -178,6 +181,8 @@ class LastPart:
             out.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more "
                           f"than {100.0 * NOTABLE:g} %; run "
                              "with a shorter step and compare again")
+        if unknown:
+            out.note_text(f"verification: {', '.join(unknown)} cannot be compared, because values are not numbers")
 
 
 def bent_elements(sim: Sim, out: CommandOutput, state: str) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from . import enums
 from ._structs import TorqueDragRow
 from .analysis import usual_operation
-from .results import CommandOutput, friction_option, quantity
+from .results import CommandOutput, friction_option, percent, quantity
 from .errors import Usage
 from .model import _DEFINITIONS
 from .scene import Scene
@@ -89,7 +89,10 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
     if (options.overpull is None) != (options.stretch is None):
         raise Usage("--overpull and --stretch belong together")
     more: dict[str, Any] = friction_option(options)
-    string = scene.names[next(iter(scene.pipes))]
+    first, *others = scene.pipes
+    string = scene.names[first]
+    if others:
+        out.note_text(f"stuck is about the string {first}; {', '.join(others)}: not assessed")
     result: dict[str, Any] = {}
     units = out.units
     with scene.new_sim() as sim:
@@ -108,7 +111,10 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
             out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far "
                     "end, "
-                       f"{row.helical_share:.2g} of helical buckling")
+                    + (f"{row.helical_share:.2g} of helical buckling" if math.isfinite(row.helical_share) else
+                       "buckling not assessed")
+                    + (f", stress {percent(row.yield_share)} of the yield strength" if math.isfinite(row.yield_share)
+                       else ""))
         torque = limits["torque"]
         if torque is None:
             out.say("torque: no limit in the scene; give --torque")
