@@ -525,6 +525,27 @@ class VerdictTest(unittest.TestCase):
         self.assertNotEqual(self.study(clipped)[1]["Fatigue"].verdict, "OK")
         self.assertEqual(self.study(SCENE)[1]["Fatigue"].verdict, "NO LIMIT GIVEN")
 
+    def test_stress_between_frames(self):
+        """A blow of 2 ms between two frames of the page: the largest stress of the run is that of all steps."""
+        text = FATIGUE.sub("", SCENE.replace('end = "20 ms"', 'end = "0.6 s"')) + """[[time_function]]
+name = "blow"
+segment = {table = [[0, 0], ["203.5 ms", 0], ["204.5 ms", 1], ["205.5 ms", 0], ["1 s", 0]]}
+[[load]]
+place = {part = "main", pipe = "last", fraction = 1.0}
+force = ["-100 kN", 0, 0]
+time_function = "blow"
+"""
+        made, _ = self.study(text, _bit_torque=lambda: None)
+        known = 0.0
+        loaded = scene.loads(text)
+        with loaded.new_sim() as sim:
+            sim.static(**loaded.fields_of("static"))
+            for _ in range(600):
+                sim.step(1e-3)
+                known = max(known, sim.profile_extremes([enums.PROFILE_VON_MISES], loaded.names["main"], 8, 1)[
+                    enums.PROFILE_VON_MISES].maximum)
+        self.assertEqual(made.demands["yield_stress"].value, known)
+
     def test_fatigue_of_the_worst_string(self):
         """Not of the first one only; the cycles of all strings are counted."""
         text = SCENE.replace("[[bit]]", OTHER_STRING)

@@ -110,6 +110,17 @@ class RodsTest(FolderTest):
         self.assertIn("must be > 0", self.call("rod-by-rod", self.scene, "--make-up", "0 N m", status=2))
         self.assertIn("--make-up", self.call("rod-by-rod", self.scene, "--make-up", "2 kN", status=2))
 
+    def test_rock_law(self):
+        """Its load is added in a run only: thrust is not cleared, unless the load is given."""
+        self.scene = self.write("cuts.toml", SCENE.replace("[[bit]]\n", '[[bit]]\nrock_law = "rate"\n')
+                                + '[limits]\npush = "100 kN"\n')
+        for more, wanted in (((), "NOT ASSESSED"), (("--weight-on-bit", "5 kN"), "OK")):
+            out, summary = self.results("rod-by-rod", *more)
+            self.assertEqual({row["verdict"] for row in summary["rod_by_rod"]["main"]["rods"]}, {wanted})
+            self.assertEqual("because a rock law gives load and torque of the bit in a run only" in out, not more)
+            _, summary = self.results("torque-drag", *more)
+            self.assertEqual(summary["rig_limits"]["main"]["drilling_assessed"], bool(more))
+
     def test_each_string_by_its_own_drives_and_bit(self):
         """Two strings have the results of scenes with one of them: load and torque of the bit, rotation and feed are
         those of the string, whichever is described first."""

@@ -307,7 +307,8 @@ def modes(scene: Scene, out: CommandOutput, options: Any) -> int:
     with scene.new_sim() as sim:
         to_rest(scene, sim, out, linear=True)
         found = sim.modes(**values)
-        _incomplete(found, sim.message, out)
+        if found.status == Status.NOTE_INCOMPLETE:  # modes are missing
+            out.note(found.status, "modes", sim.message)
         heads = ["frequency [Hz]", "damping [-]", "rigid", "axial [-]", "torsional [-]", "lateral [-]"]
         rows = [(mode.frequency, mode.damping, mode.rigid, *mode.share) for mode in found]
         out.say("   ".join(heads))
@@ -324,12 +325,6 @@ def modes(scene: Scene, out: CommandOutput, options: Any) -> int:
     return out.finish()
 
 
-def _incomplete(found: Any, message: str, out: CommandOutput) -> None:
-    """Notes the reason why modes are missing or a response neglects effects."""
-    if found.status == Status.NOTE_INCOMPLETE:
-        out.note(found.status, "", message)
-
-
 def along_pipes(figure: Any) -> Any:
     figure.axes[-1].set_xlabel("pipe, from the rig [-]")
     return figure
@@ -340,8 +335,9 @@ def response(scene: Scene, out: CommandOutput, options: Any) -> int:
     numpy = need("numpy")
     state, found = rotating.linear(scene, "response", lambda sim, state: settled(state.scene, sim, out, state.static),
                                    _respond, out.note_text)
-    found, reasons, message = found
-    _incomplete(found, message, out)
+    found, reasons, neglects = found
+    if neglects:
+        out.note_text(out.units.sentence(neglects))
     with found:
         names, units = scene.output_names("response"), out.units
         if state.rotation:
@@ -370,14 +366,14 @@ def response(scene: Scene, out: CommandOutput, options: Any) -> int:
 
 
 def _respond(sim: Sim, state: rotating.Linear) -> tuple[Any, list[Phrase | None], str]:
-    """The response, for each output None, or why it does not move, and the message of the response."""
+    """The response, for each output None, or why it does not move, and a sentence about effects that it neglects."""
     outputs = state.scene.response_outputs("response")
     found = sim.response(state.scene.excitations(), outputs, **state.options)
-    message = sim.message
+    neglects = rotating.neglected(found.status, sim.message)
     sizes = [abs(found.transfer(output=index)) for index in range(len(outputs))]
     return found, [of_response(sim, state.scene, state.scene.excitations(), one, state.options,
                                float(found.frequencies[int(size.argmax())]))
-                   for one, size in zip(outputs, sizes)], message
+                   for one, size in zip(outputs, sizes)], neglects
 
 
 def _response_table(found: Any, names: list[str], out: CommandOutput) -> None:

@@ -2,7 +2,6 @@
 speeds run in time."""
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,7 +9,6 @@ from . import _structs, enums, no_response, rotating, speed_check, speed_range
 from ._structs import Output, Place
 from .results import RPM, CommandOutput
 from .errors import Usage
-from .enums import Status
 from .language import Foreign, Phrase, phrase
 from .operating import operating
 from .rotating import Linear
@@ -62,8 +60,8 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
         bands, severity = sim.speeds(*given, **state.options)
         if bands.report.bands > len(bands):  # a speed of a band that is left out would be free
             bands, severity = sim.speeds(*given, room=bands.report.bands, **state.options)
-        neglects = re.search(r"response: .*", sim.message) if bands.status == Status.NOTE_INCOMPLETE else None
-        return bands, severity, neglects[0] if neglects else "", no_response.of_speeds(sim, state.scene, state.options)
+        neglects = rotating.neglected(bands.status, sim.message)
+        return bands, severity, neglects, no_response.of_speeds(sim, state.scene, state.options)
 
     state, (bands, severity, neglects, reasons) = rotating.linear(scene, "speeds", settle, compute, note)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]

@@ -23,6 +23,7 @@ class Operating:
     weight_on_bit: float | None = None  #: [N]
     torque_on_bit: float = 0.0          #: [N m] estimated from the load and diameter of the bit
     estimated: bool = False             #: torque_on_bit is an estimate
+    cuts: bool = False                  #: a rock law adds load and torque of the bit in a run
 
 
 def operating(scene: Scene, string: int | None = None) -> Operating:
@@ -42,6 +43,7 @@ def operating(scene: Scene, string: int | None = None) -> Operating:
                 found.feed = _ahead(time_functions, fields.get("time_function"))
         if name == "add_bit" and found.weight_on_bit is None:
             found.weight_on_bit = _ahead(time_functions, fields.get("load"))
+            found.cuts = _law(fields) != enums.ROCK_NONE
             _estimate(found, fields)
     return found
 

@@ -35,7 +35,7 @@ from .sim import Sim
 from .unit_systems import Units
 from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, duration, shown
 
-FRAMES, POINTS, DEPTHS = 60, 300, 40
+FRAMES, STRESSES, POINTS, DEPTHS = 60, 2000, 300, 40
 #: Operations in the order of OPERATIONS, with the names of the library.
 OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phrase("drill"), phrase("slide"),
                    phrase("back-ream"))
@@ -345,7 +345,8 @@ class Study:
 
     def _in_time(self, sim: Sim, course: Frames) -> None:
         counters = count_fatigue(self.scene, sim)
-        course.watch(sim, [(self.part, "hook_load"), (self.part, "rotation_torque")])
+        course.watch(sim, [(self.part, "hook_load"), (self.part, "rotation_torque")], lambda: self._stress(sim),
+                     self.scene.run["end"] / STRESSES)
         try:
             self._frames(sim, course, counters)
         finally:
@@ -356,7 +357,7 @@ class Study:
                 self.demands["pull"].add(load[1], source)
                 self.demands["yield_stress"].found += [(stress,
                                                         phrase("run, at {time:.3g} s (largest of {moments} moments)",
-                                                               time=time, moments=FRAMES))
+                                                               time=time, moments=len(course.stresses)))
                                                        for stress, time in sorted(course.stresses)[-1:]]
                 self.demands["torque"].add(max(abs(torque[0]), abs(torque[1])), source)
         if self.scene.sim.get("energy_ledger", 1):
@@ -455,13 +456,15 @@ class Study:
                                "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
 
     def _shape_of(self, sim: Sim, course: Frames) -> None:
-        """One more frame, and its largest stress."""
+        """One more frame, with the stress there."""
         course.shapes.append(self._shape(sim))
         course.times.append(sim.time)
+        course.take_stress()
+
+    def _stress(self, sim: Sim) -> float:
+        """[Pa] The largest along the string."""
         quantity = enums.PROFILE_VON_MISES
-        stress = sim.profile_extremes([quantity], self.part, self.pipes, 1)[quantity].maximum
-        if not math.isnan(stress):
-            course.stresses.append((stress, sim.time))
+        return float(sim.profile_extremes([quantity], self.part, self.pipes, 1)[quantity].maximum)
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
         found = sim.profile(self.part, self.pipes, 1)

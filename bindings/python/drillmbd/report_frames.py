@@ -3,6 +3,7 @@ torque."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from ._optional import need
@@ -18,16 +19,30 @@ class Frames:
         #: extremes of the part of the run before the state that it goes on from
         self.before: list[list[float]] = []
         self.sim: Any = None
+        self.stress: Callable[[], float] = lambda: math.nan
+        self.every = 0.0   #: [s] between stresses
         self.window: Any = None
 
-    def watch(self, sim: Sim, outputs: list[tuple[Any, str]]) -> None:
-        """Takes the extremes of these outputs from now on."""
-        self.sim, self.window = sim, sim.window(outputs)
+    def watch(self, sim: Sim, outputs: list[tuple[Any, str]], stress: Callable[[], float], every: float) -> None:
+        """Takes the extremes of these outputs, and the stress [Pa] once in each `every` [s], from now on."""
+        self.sim, self.window, self.stress, self.every = sim, sim.window(outputs), stress, every
         self.before = [[math.inf, -math.inf] for _ in outputs]
 
     def take(self) -> int:
         """A sample; returns the status."""
+        if self.sim.time >= self._stressed() + self.every * (1.0 - 1e-6):
+            self.take_stress()
         return int(self.window.take())
+
+    def _stressed(self) -> float:
+        """[s] of the last stress that was taken."""
+        return self.stresses[-1][1] if self.stresses else -math.inf
+
+    def take_stress(self) -> None:
+        """The stress now; pipes that are all rigid have none."""
+        stress = self.stress() if self.sim.time > self._stressed() else math.nan
+        if not math.isnan(stress):
+            self.stresses.append((stress, self.sim.time))
 
     def extremes(self) -> list[list[float]]:
         """Least and largest value of each output; NaN where there was no sample."""

@@ -72,6 +72,9 @@ def reach(depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dic
 def unknown(plan: Operating, limits: Iterable[str]) -> str:
     """The limits that cannot be assessed because a load of drilling is missing, with the reason; "" where none is."""
     given = set(limits) - {"pull"}
+    if given and plan.cuts:
+        return ("drilling is not assessed, because a rock law gives load and torque of the bit in a run only; give "
+                "--weight-on-bit and --torque-on-bit")
     if given and not plan.weight_on_bit:
         return "drilling is not assessed, because no load on the bit is given; give load in [[bit]], or --weight-on-bit"
     if given - {"push"} and not plan.torque_on_bit:

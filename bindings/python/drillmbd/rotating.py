@@ -3,6 +3,7 @@ is linearised."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,9 @@ RPM = 2.0 * math.pi / 60.0
 #: Forces that the linear state may leave out of balance, over those that balance in it. The static state of the round
 #: string balances by itself; what is left are its eccentric masses, which turn, and are the excitation.
 UNBALANCED = 1.0
+#: change of coefficients, over the forces of a result, that counts as none: a rotor that is not round is unstable in
+#: about half of that of the speed, less than the margin of bands
+NEGLIGIBLE = 0.02
 
 
 # ---- Time functions --------------------------------------------------------------------------------------------------
@@ -85,6 +89,15 @@ class Linear:
     def numbers(self) -> dict[str, float | None]:
         """For the summary."""
         return {"rotation_rpm": self.rotation / RPM, "weight_on_bit_N": self.weight_on_bit, "torque_N_m": self.torque}
+
+
+def neglected(status: int, message: str) -> str:
+    """The sentence of the library about effects that a response leaves out; "" where they are NEGLIGIBLE."""
+    found = re.search(r"response: .*", message) if status == enums.NOTE_INCOMPLETE else None
+    change = re.search(r"coefficients change by (\S+) of the forces", message)
+    if found is None or change is not None and float(change[1]) <= NEGLIGIBLE:
+        return ""
+    return found[0]
 
 
 def options_of(scene: Scene, analysis: str) -> dict[str, Any]:
