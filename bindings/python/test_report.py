@@ -443,6 +443,15 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(tile.verdict, "NOT ASSESSED", tile)
         self.assertIn("rigid pipes, which have no stress", tile.text)
 
+    def test_an_unstable_state(self):
+        """A straight string that is pushed beyond its buckling load has none of the stress of the buckled one."""
+        for load, stable in (("2 kN", True), ("60 kN", False)):
+            text = SCENE.replace("5 deg", "90 deg").replace('"2 kN"', f'"{load}"')
+            tiles = self.study(text.replace("eccentricity", "damping_time").replace("1 mm", "1 ms"))[1]
+            for title in ("Thrust at the rig", "Von Mises stress"):
+                self.assertEqual(tiles[title].verdict, "OK" if stable else "NOT ASSESSED", tiles[title])
+                self.assertEqual("an unstable state, which the string leaves" in tiles[title].text, not stable)
+
     def test_nonlinear_buckling_decides_on_the_load(self):
         with unittest.mock.patch.object(report, "buckling_tile", return_value=verdict.Tile(
                 "Buckling, nonlinear", "", "", "NEAR LIMIT")):

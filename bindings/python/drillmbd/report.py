@@ -150,7 +150,7 @@ class Study:
                 self.tiles.append(Tile(what, phrase("not computed"), reason, NOT_COMPUTED))
 
     # ---- Statics ----------------------------------------------------------------------------------------------------
-    def _static(self, sim: Sim, **slip: float) -> None:
+    def _static(self, sim: Sim, **slip: float) -> int:
         values: dict[str, Any] = self.scene.fields_of("static")
         values.update({"slip_axial": 0.0, "slip_rotation": 0.0, **slip})
         try:
@@ -162,6 +162,7 @@ class Study:
             status = sim.static(**values).status
             self.out.note_text(phrase("static state: found in ten load steps"))
         self.out.note(status, phrase("static state"), Foreign(sim.message, self.out.units))
+        return status
 
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01
@@ -186,12 +187,16 @@ class Study:
     def _operation(self, name: Phrase, key: str, slip: dict[str, float]) -> None:
         scene, _ = balanced(self.scene, {**self.scene.fields_of("static"), **slip})
         with scene.new_sim() as sim:
-            self._static(sim, **slip)
+            status = self._static(sim, **slip)
             found = self.operations[name] = sim.profile(scene.names[self.string], self.pipes)
         axial = float(found.axial_force[0])
         at_rig = {"push": -axial, "pull": axial, "torque": abs(float(found.torque[0]))}[key]
         source = phrase("stiff string, {operation}, loads of time 0 s", operation=name)
         self.demands[key].add(at_rig, source)
+        if status == Status.NOTE_UNSTABLE:
+            for demand in (key, "yield_stress"):
+                self.demands[demand].failed.append(phrase("{source}: an unstable state, which the string leaves",
+                                                          source=source))
         stress = _largest(found["von_mises"])
         if any(math.isnan(one) for one in found["von_mises"]) and math.isnan(self._yield_strength()):
             self.demands["yield_stress"].failed.append(phrase("{source}: rigid pipes, which have no stress",

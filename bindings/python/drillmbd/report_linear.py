@@ -134,7 +134,7 @@ def speeds_figure(found: Speeds) -> Figure:
             "yaxis": {"title": {"text": phrase("amplitude over limit [-]")}, "type": "log"}}})
 
 
-def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], out: CommandOutput) -> Tile:
+def buckling_tile(scene: Scene, to_rest: Callable[[Sim], Any], out: CommandOutput) -> Tile:
     """The lowest critical factor of [buckling]: the string becomes unstable at 1 + factor times the present loads.
     Never OK where none was found, it was not confirmed, or flutter could not be assessed."""
     values = scene.fields_of("buckling")
