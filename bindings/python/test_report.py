@@ -532,6 +532,11 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(self.study(endless)[1]["Fatigue"].verdict, "OK")
         clipped = endless.replace('endurance = "90 MPa"', 'endurance = "90 MPa"\nstress_range = "1 kPa"')
         self.assertNotEqual(self.study(clipped)[1]["Fatigue"].verdict, "OK")
+        with unittest.mock.patch("drillmbd.fatigue.PLACES", 4):  # of eight pipes
+            made, tiles = self.study(endless)
+        self.assertEqual(tiles["Fatigue"].verdict, "NOT ASSESSED")
+        self.assertIn("fatigue of main: cycles are counted in 4 of its 8 pipes, spread evenly",
+                      made.out.summary["notes"])
         self.assertEqual(self.study(SCENE)[1]["Fatigue"].verdict, "NO LIMIT GIVEN")
 
     def test_stress_between_frames(self):

@@ -92,6 +92,7 @@ class StringFatigue:
     def __init__(self, sim: Sim, string: Id, pipes: int, **fields: Any) -> None:
         pipes = whole(pipes, "string fatigue", "pipes", 1)
         self.pipes, places = middles(string, pipes)  #: numbers of the pipes, from the rig end
+        self.count = pipes  #: of the string; there may be more than are counted
         self.sim, self.counter = sim, sim.fatigue(places, **fields)
 
     def take(self) -> int:

@@ -379,8 +379,9 @@ class Study:
         string = max(worst, key=lambda one: (worst[one].damage, worst[one].largest_range))
         counter = counters[string]
         pipe = counter.pipes[counter.worst]
-        self.tiles.append(self._fatigue_tile(worst[string], pipe, any(one.clipped for each in counters.values()
-                                                                      for one in each.results)))
+        missed = any(len(each.pipes) < each.count or any(one.clipped for one in each.results)
+                     for each in counters.values())
+        self.tiles.append(self._fatigue_tile(worst[string], pipe, missed))
         if len(counters) > 1:
             self.tiles[-1].text = phrase("string {string}: {text}", string=string, text=self.tiles[-1].text)
         self.figures.append((phrase("Fatigue along the string"),
@@ -399,8 +400,9 @@ class Study:
                           "xaxis": {"title": {"text": phrase("stress range [{unit}]", unit=self.units.unit("MPa"))}},
                           "yaxis": {"title": {"text": phrase("cycles [-]")}, "rangemode": "tozero"}}}))
 
-    def _fatigue_tile(self, found: FatigueResult, pipe: int, clipped: bool) -> Tile:
-        """Of the worst pipe. A run that was stopped shows no part of the cycles of its rest."""
+    def _fatigue_tile(self, found: FatigueResult, pipe: int, missed: bool) -> Tile:
+        """Of the worst pipe. missed: not all pipes are counted, or cycles are beyond the range. A run that was stopped
+        shows no part of the cycles of its rest."""
         title = phrase("Fatigue")
         if found.largest_range <= 0.0:
             return Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED)
@@ -410,7 +412,7 @@ class Study:
                 pipe=pipe), OVER if found.damage > 1.0 else NO_LIMIT)
         text = phrase("in this run; largest range {range}, pipe {pipe}",
                       range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
-        return Tile(title, phrase("no damage"), text, NOT_ASSESSED if clipped or self.out.interrupted else OK)
+        return Tile(title, phrase("no damage"), text, NOT_ASSESSED if missed or self.out.interrupted else OK)
 
     def _frames(self, sim: Sim, course: Frames, counters: dict[str, StringFatigue]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")

@@ -236,6 +236,10 @@ def report_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> di
                        string=name, damage=found[index].damage,
                           time=found[index].time, pipe=one.pipes[index],
                        range=out.units.text(found[index].largest_range / 1e6, "MPa")))
+        if len(one.pipes) < one.count:
+            out.note_text(phrase("fatigue of {string}: cycles are counted in {counted} of its {pipes} pipes, spread "
+                                 "evenly",
+                                 string=name, counted=len(one.pipes), pipes=one.count))
         clipped = sum(result.clipped for result in found)
         if clipped:
             out.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too "
