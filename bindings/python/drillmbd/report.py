@@ -162,7 +162,7 @@ class Study:
             status = sim.static(**values).status
             self.out.note_text(phrase("static state: found in ten load steps"))
         self.out.note(status, phrase("static state"), Foreign(sim.message, self.out.units))
-        return status
+        return int(status)
 
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01
