@@ -542,7 +542,7 @@ class CheckTest(FolderTest):
         self.assertEqual(speed_check.Result(10.0, 5.0, 0.4, 10.0).verdict, "lateral acceleration")
 
     def test_a_string_that_turns_freely(self):
-        """No torque but what is left of the start: nothing oscillates, whatever it is over its mean."""
+        """The torque is rounding and decaying vibrations of the start: nothing oscillates, though its mean is smaller."""
         text = SCENE.replace("= 0.30", "= 0.0")
         self.assertNotEqual(text, SCENE)
         for change in ("", 'kind = "axial-torsional"'):

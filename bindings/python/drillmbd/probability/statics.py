@@ -27,7 +27,7 @@ class State:
     name: str
     scene: Scene                 #: with the loads of the state at time 0
     slip: dict[str, float]
-    #: by string and kind of failure, what the demand lacks of the torque of the bit
+    #: by string and kind of failure: the part of the demand by the torque of the bit, which the state does not contain
     torque: dict[tuple[str, str], float]
 
 
