@@ -116,6 +116,20 @@ class CommandTest(FolderTest):
         self.assertEqual(len(rows), 18)
         self.assertEqual(rows[0][5], "axial force [N]")
 
+    def test_rigid_pipes(self):
+        """Forces are those of the pipes that have some; a string of rigid pipes alone has none."""
+        mixed = self.SCENE.replace("[[string.pipes]]\n", '[[string.pipes]]\nkind = "rigid"\n[[string.pipes]]\n', 1)
+        for count, scene in (("some", mixed), ("all", self.SCENE.replace("[[string.pipes]]\n",
+                                                                         '[[string.pipes]]\nkind = "rigid"\n', 1))):
+            with self.subTest(rigid=count):
+                self.scene = self.write(f"{count}.toml", scene)
+                self.output = self.folder / count
+                out, summary = self.results("static")
+                axial = summary["strings"]["main"]["axial_force_N"]
+                self.assertNotIn("nan", out)
+                self.assertEqual("rigid pipes, which have no section forces" in out, count == "all")
+                self.assertEqual(axial == [None, None], count == "all")
+
     def test_run_and_its_hash(self):
         out, summary = self.results("run")
         self.assertEqual(summary["run"]["steps"], 20)

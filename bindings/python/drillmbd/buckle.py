@@ -13,6 +13,7 @@ from .analysis import Buckling, usual_operation
 from .results import CommandOutput, file_name
 from .errors import Error, NoResult, Usage, status_text
 from .commands import along_pipes, stations_of, to_rest
+from .profile import span
 from .scene import Scene
 from .sim import Sim
 from .torque_drag import depths_of
@@ -115,12 +116,10 @@ def reason_of(scene: Scene, sim: Sim, error: Error) -> str:
 
 def _hanging(scene: Scene, sim: Sim) -> str:
     try:
-        lowest = min(float(sim.profile(scene.names[name], pipes).axial_force.min())
-                     for name, pipes in scene.pipes.items())
-        largest = max(float(sim.profile(scene.names[name], pipes).axial_force.max())
-                      for name, pipes in scene.pipes.items())
+        spans = [span(sim.profile(scene.names[name], pipes).axial_force) for name, pipes in scene.pipes.items()]
     except Error:
         return ""
+    lowest, largest = span(sum(spans, ()))
     if largest > 0.0 and lowest > -1e-3 * largest:
         return ". No part of the string is compressed in the static state either: give the bit a load"
     return ""

@@ -1,6 +1,7 @@
 """The commands of `drillmbd` that compute results of a scene, one function each."""
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -13,6 +14,7 @@ from .enums import Status
 from .errors import Usage
 from .language import Phrase
 from .no_response import NOTHING_EXCITES, of_response
+from .profile import span
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, TurnAStep, bent_elements, energy_error
@@ -73,15 +75,16 @@ def profiles(scene: Scene, sim: Sim, out: CommandOutput, word: str) -> None:
     for name, pipes in scene.pipes.items():
         found = sim.profile(scene.names[name], pipes)
         per_contact = found.contact_force.sum()
-        out.say(f"{name}: axial force {units.number(found.axial_force.min(), 'N')} .. "
-                f"{units.text(found.axial_force.max(), 'N')}, torque up to "
-                   f"{units.text(abs(found.torque).max(), 'N m')}, bending up to "
-                   f"{units.text(found.bending_moment.max(), 'N m')}, on the wall "
-                   f"{units.text(per_contact, 'N')}")
+        axial, torque, bending = (span(one) for one in (found.axial_force, found.torque, found.bending_moment))
+        forces = "rigid pipes, which have no section forces"
+        if not math.isnan(axial[0]):
+            forces = (f"axial force {units.number(axial[0], 'N')} .. {units.text(axial[1], 'N')}, torque up to "
+                      f"{units.text(max(-torque[0], torque[1]), 'N m')}, bending up to "
+                      f"{units.text(bending[1], 'N m')}")
+        out.say(f"{name}: {forces}, on the wall {units.text(per_contact, 'N')}")
         out.summary.setdefault("strings", {})[name] = {
-            "axial_force_N": [float(found.axial_force.min()), float(found.axial_force.max())],
-            "torque_N_m": [float(found.torque.min()), float(found.torque.max())],
-            "bending_moment_N_m": float(found.bending_moment.max()), "wall_force_N": float(per_contact)}
+            "axial_force_N": list(axial), "torque_N_m": list(torque), "bending_moment_N_m": bending[1],
+            "wall_force_N": float(per_contact)}
         if out.folder is not None:
             heads = ["along [m]", "depth [m]", "x [m]", "y [m]", "z [m]", "axial force [N]", "torque [N m]",
                      "bending moment [N m]"]

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ._optional import need
+from .profile import Profile, span
 from .unit_systems import SI, Units
 
 if TYPE_CHECKING:
     from .analysis import Modes, Response
     from .analysis import TorqueDrag
     from .fatigue import StringFatigue
-    from .profile import Profile
     from .recorder import ProfileRecorder, Recorder
 
 # Okabe and Ito's palette from dark to light, with lines that differ too.
@@ -97,7 +97,8 @@ def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
     figure, ((axial, torque, bending, wall),) = _axes(1, 4, (13, 6), sharey=True)
     length = units.factor("m")
     down = length * down
-    least = LEAST_SHARE * max(float(found.contact_force.sum()), float(abs(found.axial_force).max(initial=0.0)))
+    largest = max((abs(one) for one in span(found.axial_force) if one == one), default=0.0)
+    least = LEAST_SHARE * max(float(found.contact_force.sum()), largest)
     for axes, values, si, label in ((axial, found.axial_force, "N", "axial force [{}]\n(tension > 0)"),
                                     (torque, found.torque, "N m", "torque [{}]"),
                                     (bending, found.bending_moment, "N m", "bending moment [{}]")):

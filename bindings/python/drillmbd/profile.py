@@ -106,6 +106,12 @@ class Profile:
                                          self.values[one.name.lower()] for one in QUANTITIES})
 
 
+def span(values: Any) -> tuple[float, float]:
+    """Least and largest of values along a string where they are defined; NaN if nowhere, as forces of rigid pipes."""
+    numpy = need("numpy")
+    return float(numpy.fmin.reduce(values)), float(numpy.fmax.reduce(values))
+
+
 class Extremes(NamedTuple):
     """Least and largest value of a quantity over the stations of a string, and their distances [m] from the rig end;
     NaN where no station has a value."""
