@@ -392,7 +392,7 @@ typedef struct dmb_counters {
     uint64_t carried; /* 1: a state transfer has placed supports elsewhere than described */
 } dmb_counters;
 
-enum { DMB_PAUSE_MAX = 31 }; /* [steps] longest back-off between trials of reused factors */
+enum { DMB_PAUSE_MAX = 31 }; /* [steps] longest back-off of reused factors, of linear predictions */
 typedef struct dmb_factor_reuse {
     double step;          /* [s] length of the step for which they were computed; 0: no factors */
     uint32_t pause;       /* remaining steps of the back-off, which do not try them */
