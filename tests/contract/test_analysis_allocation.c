@@ -123,8 +123,7 @@ static void open_sparse(subject *c)
     assert_true(c->s.model->scene->sparse_count > 0);
 }
 
-/* A cantilever of many pipes with material damping. */
-static void open_long_string(subject *c)
+static void open_bare_string(subject *c, int32_t start_free, double damping_time, uint32_t pipes)
 {
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def string = dmb_string_def_default();
@@ -132,27 +131,24 @@ static void open_long_string(subject *c)
     open_model(c);
     none.gravity[2] = 0.0;
     must_model(&c->s, dmb_model_set_environment(c->s.model, &none));
-    string.start_free = DMB_FREE_NONE;
+    string.start_free = start_free;
     pipe.string = c->part = add_string(&c->s, &string);
-    pipe.damping_time = 1e-4;
-    (void)add_pipes(&c->s, &pipe, 40);
+    pipe.damping_time = damping_time;
+    (void)add_pipes(&c->s, &pipe, pipes);
+    c->place = dmb_station(c->part, pipes - 1, 1.0);
     start(c);
 }
 
-/* The same free at both ends, so that its rigid-body motions are taken apart. */
+/* A cantilever of many pipes with material damping. */
+static void open_long_string(subject *c)
+{
+    open_bare_string(c, DMB_FREE_NONE, 1e-4, 40);
+}
+
+/* Free at both ends, so that its rigid-body motions are taken apart. */
 static void open_free_string(subject *c)
 {
-    dmb_pipe_def pipe = s1_pipe();
-    dmb_string_def string = dmb_string_def_default();
-    dmb_environment_def none = dmb_environment_def_default();
-    open_model(c);
-    none.gravity[2] = 0.0;
-    must_model(&c->s, dmb_model_set_environment(c->s.model, &none));
-    string.start_free = DMB_FREE_ALL;
-    pipe.string = c->part = add_string(&c->s, &string);
-    (void)add_pipes(&c->s, &pipe, 20);
-    c->place = dmb_station(c->part, 19, 1.0);
-    start(c);
+    open_bare_string(c, DMB_FREE_ALL, 0.0, 20);
 }
 
 /* A string that turns on the low side of its hole. */

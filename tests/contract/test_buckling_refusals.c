@@ -40,22 +40,7 @@ static void states_that_cannot_buckle(void **state)
 static void body_that_is_free(void **state)
 {
     (void)state;
-    pushed_column c;
-    dmb_string_def string = dmb_string_def_default();
-    const dmb_body_def body = dmb_body_def_default();
-    dmb_load_def load = dmb_load_def_default();
-    (void)memset(&c, 0, sizeof c);
-    rig_open(&c.s, 0.0, 0.0, 0.0);
-    string.start_free = DMB_FREE_NONE;
-    dmb_pipe_def pipe = s1_pipe();
-    pipe.string = c.string = add_string(&c.s, &string);
-    (void)add_pipes(&c.s, &pipe, 4);
-    (void)add_body(&c.s, &body);
-    load.place = dmb_station(c.string, 3, 1.0);
-    load.time_function = add_constant(&c.s, 0.0);
-    load.force[0] = -1.0;
-    c.load = add_load(&c.s, &load);
-    (void)rig_start(&c.s, NULL);
+    pushed_column c = column_beside_a_free_body();
     dmb_buckling_options options = dmb_buckling_options_default();
     options.scale = DMB_SCALE_PART;
     options.part = c.load;

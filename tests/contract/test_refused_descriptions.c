@@ -12,10 +12,7 @@ typedef struct subject {
 
 static void expect(const subject *c, int32_t status, int32_t wanted, const char *words)
 {
-    const char *message = dmb_model_message(c->r.model);
-    if (status != wanted || strstr(message, words) == NULL)
-        fail_msg("wanted %s, \"%s\": %s: %s", dmb_status_name(wanted), words, dmb_status_name(status), message);
-    print_message("    %s\n", message);
+    must_refuse(dmb_model_message(c->r.model), status, wanted, words);
 }
 
 static void begin(subject *c)

@@ -19,6 +19,24 @@ static inline void take(subject *s)
     s->hash = hash_of(s->sim);
 }
 
+/* A cantilever of two pipes that shakes, with no wall: held rows are not turned into other frames there. */
+static inline subject open_cantilever(int32_t kind)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    subject s = {.sim = NULL};
+    SAVED_MUST(&s.scene, dmb_model_create(NULL, &s.scene.model));
+    string.start_free = DMB_FREE_NONE;
+    SAVED_MUST(&s.scene, dmb_model_add_string(s.scene.model, &string, &s.scene.string));
+    pipe.kind = kind;
+    SAVED_MUST(&s.scene, dmb_model_add_pipes(s.scene.model, &pipe, 2, NULL));
+    SAVED_MUST(&s.scene, dmb_model_compile(s.scene.model, NULL));
+    s.sim = saved_sim(&s.scene);
+    for (int i = 0; i < 20; i++) assert_int_equal(dmb_sim_step(s.sim, 2e-4, NULL), DMB_OK);
+    take(&s);
+    return s;
+}
+
 static inline subject open_subject(int which)
 {
     subject s = {.scene = saved_scene_open(which)};

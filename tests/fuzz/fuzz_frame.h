@@ -3,29 +3,12 @@
 #ifndef DMB_TESTS_FUZZ_FRAME_H
 #define DMB_TESTS_FUZZ_FRAME_H
 
-#include <stdio.h>
-#include <stdlib.h>
-
+#include "must.h"
 #include "random_scene.h"
-
-#define MUST(condition)                                                     \
-    do {                                                                    \
-        if (!(condition)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            abort();                                                        \
-        }                                                                   \
-    } while (0)
 
 static inline void known(int32_t status)
 {
     MUST(strcmp(dmb_status_name(status), "DMB_UNKNOWN") != 0);
-}
-
-static inline uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
 }
 
 static inline void check_restore(dmb_sim *sim)

@@ -7,6 +7,7 @@
  * bits 4 and 5 set: events are waited for, bits 4 to 7 set: analyses where there are any. Then changes: three bytes of
  * a place, one of a length less 1 (bits 0 to 2), so many bytes; or with its bit 3 set one of the words and numbers
  * below, on a multiple of its size. */
+#include "must.h"
 #include "run/run.h"
 #include "saved_scenes.h"
 
@@ -27,22 +28,7 @@ typedef struct subject {
 
 static subject subjects[SAVED_SCENES];
 
-#define MUST(condition)                                                     \
-    do {                                                                    \
-        if (!(condition)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            abort();                                                        \
-        }                                                                   \
-    } while (0)
-
 /* ---- Scenes, made once ------------------------------------------------------------------------------------------- */
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
-}
 
 /* The snapshot is taken with options by which a step that does not converge soon is given up: a forged state often does
  * not. */

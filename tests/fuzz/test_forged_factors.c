@@ -59,30 +59,13 @@ static void factors_of_nothing(void **state)
     close_subject(&s);
 }
 
-/* A cantilever that shakes, with no wall: held rows are not turned into other frames there. */
-static subject open_cantilever(void)
-{
-    dmb_string_def string = dmb_string_def_default();
-    dmb_pipe_def pipe = dmb_pipe_def_default();
-    subject s = {.sim = NULL};
-    SAVED_MUST(&s.scene, dmb_model_create(NULL, &s.scene.model));
-    string.start_free = DMB_FREE_NONE;
-    SAVED_MUST(&s.scene, dmb_model_add_string(s.scene.model, &string, &s.scene.string));
-    SAVED_MUST(&s.scene, dmb_model_add_pipes(s.scene.model, &pipe, 2, NULL));
-    SAVED_MUST(&s.scene, dmb_model_compile(s.scene.model, NULL));
-    s.sim = saved_sim(&s.scene);
-    for (int i = 0; i < 20; i++) assert_int_equal(dmb_sim_step(s.sim, 2e-4, NULL), DMB_OK);
-    take(&s);
-    return s;
-}
-
 /* Factors that couple held rows with others: these stay where they are, and the step ends where it would. */
 static void factors_that_pull_at_what_is_held(void **state)
 {
     (void)state;
     static const char *const fields[] = {"reused_diagonal", "reused_lower", "reused_upper"};
     static const double values[] = {1e-9, 1e-3, -1.0, 1e6};
-    subject s = open_cantilever();
+    subject s = open_cantilever(DMB_PIPE_FLEXIBLE);
     const dmb_scene *scene = s.sim->scene;
     const uint32_t n = scene->node_count;
     assert_true(scene->site_count == 0 && scene->constrained_count == 6 && got(&s, "reuse", 0) > 0.0);

@@ -97,27 +97,10 @@ static void bodies_stay_on_their_supports(void **state)
 
 /* ---- Strings ----------------------------------------------------------------------------------------------------- */
 
-static subject open_string(int32_t kind)
-{
-    dmb_string_def string = dmb_string_def_default();
-    dmb_pipe_def pipe = dmb_pipe_def_default();
-    subject s = {.sim = NULL};
-    SAVED_MUST(&s.scene, dmb_model_create(NULL, &s.scene.model));
-    string.start_free = DMB_FREE_NONE;
-    SAVED_MUST(&s.scene, dmb_model_add_string(s.scene.model, &string, &s.scene.string));
-    pipe.kind = kind;
-    SAVED_MUST(&s.scene, dmb_model_add_pipes(s.scene.model, &pipe, 2, NULL));
-    SAVED_MUST(&s.scene, dmb_model_compile(s.scene.model, NULL));
-    s.sim = saved_sim(&s.scene);
-    for (int i = 0; i < 20; i++) assert_int_equal(dmb_sim_step(s.sim, 2e-4, NULL), DMB_OK);
-    take(&s);
-    return s;
-}
-
 static void strings_stay_where_they_are_held(void **state)
 {
     (void)state;
-    subject s = open_string(DMB_PIPE_FLEXIBLE);
+    subject s = open_cantilever(DMB_PIPE_FLEXIBLE);
     put(&s, "displacement", 1, 1e-4);
     refused(&s, "displacement");
     put(&s, "displacement", 0, -3.0);
@@ -125,7 +108,7 @@ static void strings_stay_where_they_are_held(void **state)
     put(&s, "displacement", 5, 1e-4); /* of the node after it, which is free */
     assert_int_equal(restore(&s), DMB_OK);
     close_subject(&s);
-    s = open_string(DMB_PIPE_AXIAL_TORSIONAL);
+    s = open_cantilever(DMB_PIPE_AXIAL_TORSIONAL);
     assert_int_equal(s.sim->scene->layout.size[0], DMB_NODE_AXIAL_TORSIONAL);
     put(&s, "displacement", 0, 1e-4);
     refused(&s, "displacement");

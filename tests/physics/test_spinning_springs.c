@@ -31,12 +31,6 @@ typedef struct held {
     double per_step, hw, radius;
 } held;
 
-static double energy_now(const rig *s)
-{
-    const dmb_energy e = energy_of(s);
-    return e.kinetic + e.strain;
-}
-
 static dmb_id add_turning(rig *s, double turned, double across, double y, int round)
 {
     dmb_body_def body = dmb_body_def_default();
@@ -179,14 +173,8 @@ static void open_scene(rig *s, const held *of)
 static double most_of(const held *of, uint32_t steps, double *error)
 {
     rig s;
-    double most = 0.0;
     open_scene(&s, of);
-    const double before = energy_now(&s);
-    for (uint32_t i = 0; i < steps; i++) {
-        const int32_t status = dmb_sim_step(s.sim, of->per_step / spin, NULL);
-        assert_true(status == DMB_OK || status == DMB_NOTE_STEP_CUT);
-        most = fmax(most, energy_now(&s) / before);
-    }
+    const double most = largest_energy(&s, of->per_step / spin, steps);
     *error = fabs(energy_of(&s).error);
     rig_close(&s);
     return most;

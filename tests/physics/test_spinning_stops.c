@@ -26,12 +26,6 @@ typedef struct spinning {
 
 static const double mass = 2.0, spin = 100.0, gap = 0.02, lever = 0.1;
 
-static double energy_now(const rig *s)
-{
-    const dmb_energy e = energy_of(s);
-    return e.kinetic + e.strain;
-}
-
 static dmb_id add_spinning(rig *s, double turned, double off)
 {
     dmb_body_def body = dmb_body_def_default();
@@ -136,14 +130,8 @@ static void open_scene(rig *s, const spinning *of)
 static double most_of(const spinning *of, uint32_t steps)
 {
     rig s;
-    double most = 0.0;
     open_scene(&s, of);
-    const double before = energy_now(&s);
-    for (uint32_t i = 0; i < steps; i++) {
-        const int32_t status = dmb_sim_step(s.sim, of->per_step / spin, NULL);
-        assert_true(status == DMB_OK || status == DMB_NOTE_STEP_CUT);
-        most = fmax(most, energy_now(&s) / before);
-    }
+    const double most = largest_energy(&s, of->per_step / spin, steps);
     rig_close(&s);
     return most;
 }

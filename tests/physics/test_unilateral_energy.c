@@ -16,12 +16,6 @@ typedef struct bouncing {
     double start;     /* [J] */
 } bouncing;
 
-static double energy_now(const rig *s)
-{
-    const dmb_energy e = energy_of(s);
-    return e.kinetic + e.strain;
-}
-
 /* Steps may be divided where several contacts close at once. */
 static void must_step(rig *s, double step)
 {

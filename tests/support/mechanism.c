@@ -1,5 +1,6 @@
 #include "mechanism.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -130,4 +131,22 @@ int32_t mechanism_start(rig *s, const dmb_sim_options *options)
 refusal refused_start(rig *s)
 {
     return create(s, NULL);
+}
+
+double energy_now(const rig *s)
+{
+    const dmb_energy e = energy_of(s);
+    return e.kinetic + e.strain;
+}
+
+double largest_energy(const rig *s, double h, uint32_t steps)
+{
+    const double before = energy_now(s);
+    double most = 0.0;
+    for (uint32_t i = 0; i < steps; i++) {
+        const int32_t status = dmb_sim_step(s->sim, h, NULL);
+        assert_true(status == DMB_OK || status == DMB_NOTE_STEP_CUT);
+        most = fmax(most, energy_now(s) / before);
+    }
+    return most;
 }

@@ -32,6 +32,10 @@ uint32_t multipliers_of(const rig *s, dmb_id part, double multipliers[6]);
 /* Moving poses of two sims: largest difference of position, rotation and velocity over bodies of the same order. */
 double motion_difference(const rig *a, const rig *b, const dmb_id *parts_a, const dmb_id *parts_b, uint32_t count);
 
+/* [J] Kinetic energy and strain; the largest in steps of length h over that before them, which may be divided. */
+double energy_now(const rig *s);
+double largest_energy(const rig *s, double h, uint32_t steps);
+
 /* Options with that spectral radius, Newton to `tolerance`. */
 dmb_sim_options sharp_options(double spectral_radius, double tolerance);
 

@@ -19,6 +19,8 @@ typedef struct column_choice {
 } column_choice;
 
 pushed_column column_open(const column_choice *choice);
+/* Four pipes, whose load is not yet there, beside a body that nothing holds. */
+pushed_column column_beside_a_free_body(void);
 void column_close(pushed_column *c);
 /* Fails unless the sim's last message has these words in it. */
 void must_say(const rig *s, const char *words);

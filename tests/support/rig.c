@@ -1,5 +1,7 @@
 #include "rig.h"
 
+#include <string.h>
+
 void must_model(const rig *s, int32_t status)
 {
     if (status < 0) fail_msg("%s: %s", dmb_status_name(status), dmb_model_message(s->model));
@@ -42,6 +44,13 @@ void rig_close(rig *s)
 }
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+void must_refuse(const char *message, int32_t status, int32_t wanted, const char *words)
+{
+    if (status != wanted || strstr(message, words) == NULL)
+        fail_msg("wanted %s, \"%s\": %s: %s", dmb_status_name(wanted), words, dmb_status_name(status), message);
+    print_message("    %s\n", message);
+}
 
 dmb_id add_string(rig *s, const dmb_string_def *def)
 {

@@ -22,6 +22,8 @@ void rig_close(rig *s);
 /* Fails with the message of the model or the sim when status < 0. */
 void must_model(const rig *s, int32_t status);
 void must(const rig *s, int32_t status);
+/* Fails unless the status is the wanted one and the message has these words in it; prints the message. */
+void must_refuse(const char *message, int32_t status, int32_t wanted, const char *words);
 
 /* Parts, added with a check. */
 dmb_id add_string(rig *s, const dmb_string_def *def);

@@ -2,23 +2,10 @@
 #ifndef DMB_TESTS_MATH_TEST_H
 #define DMB_TESTS_MATH_TEST_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "close.h"
 #include "math/vec3.h"
-
-#define CHECK_CLOSE(got, want, tolerance)                                                             \
-    do {                                                                                              \
-        const double g_ = (got), w_ = (want), t_ = (tolerance);                                       \
-        if (!(fabs(g_ - w_) <= t_))                                                                   \
-            fail_msg("%s: %.17g, wanted %.17g, off by %.3g > %.3g", #got, g_, w_, fabs(g_ - w_), t_); \
-    } while (0)
 
 #define CHECK_BELOW(error, tolerance) CHECK_CLOSE(error, 0.0, tolerance)
 
