@@ -76,6 +76,34 @@ static void inclined(void **state)
     destroy(&s);
 }
 
+/* Tool joints are rigid, also in the soft string: a string that hangs stretches as in the statics, whose elements are
+ * the pipes without them, and torque at the bit winds up the same lengths (eq:drilling.stretch). The soft string
+ * spreads their weight over the pipe: 0.16 / pipes. */
+static void tool_joints_are_rigid(void **state)
+{
+    const dmb_output stretch = {.quantity = DMB_OUTPUT_STRETCH};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        scene s = describe(100, NULL, 0);
+        dmb_operation turn = usual(DMB_OPERATION_ROTATE);
+        double found = 0.0;
+        s.pipe.kind = i == 0 ? DMB_PIPE_FLEXIBLE : DMB_PIPE_AXIAL_TORSIONAL;
+        s.pipe.length = 3.0;
+        s.pipe.joint_length = 0.3;
+        s.pipe.joint_outer_diameter = 0.08;
+        s.wall.direction[0] = 0.0;
+        s.wall.direction[2] = -1.0;
+        compile(&s);
+        turn.torque_on_bit = 2e3;
+        must(dmb_analysis_static(s.sim, NULL, NULL), dmb_sim_message(s.sim));
+        must(dmb_query_output(s.sim, &stretch, &found), dmb_sim_message(s.sim));
+        const dmb_torque_drag_row row = row_with(&s, NULL, &turn);
+        check_relative("stretch", row.stretch, found, 2e-3);
+        check_relative("wind-up", row.wind_up, 2e3 * 0.9 * 300.0 / (2.1e11 / 2.6 * 2.0 * second_moment(&s)), 1e-9);
+        destroy(&s);
+    }
+}
+
 /* Pulled through a hole that builds on an arc of radius R, N/R > w sin i all along:
  *     dN/di = -mu N - w R cos i + mu w R sin i,   N = A exp(-mu i) + a sin i + b cos i,
  * a = w R (mu^2 - 1)/(1 + mu^2), b = -2 mu w R/(1 + mu^2); `load` hangs at the far end. */
@@ -600,6 +628,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inclined),
+        cmocka_unit_test(tool_joints_are_rigid),
         cmocka_unit_test(pulled_through_an_arc),
         cmocka_unit_test(capstan),
         cmocka_unit_test(yield_share_at_jumps),

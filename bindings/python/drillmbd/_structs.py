@@ -2066,8 +2066,8 @@ class TorqueDragRow(Sized):
         "helix_length": ("m", "of string above the load of helical buckling"),
         "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength; measured depth where"),
         "yield_at": ("m", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength; measured depth where"),
-        "stretch": ("m", "by the effective force, > 0 longer"),
-        "wind_up": ("rad", "of the rig end against the bit"),
+        "stretch": ("m", "by the effective force, > 0 longer; of the rig end against the bit; tool joints rigid"),
+        "wind_up": ("rad", "by the effective force, > 0 longer; of the rig end against the bit; tool joints rigid"),
         "wall_force": ("N", "sum over the string"),
     }
 

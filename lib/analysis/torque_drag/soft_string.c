@@ -99,6 +99,7 @@ typedef struct march {
     const dmb_pipe_def *pipe; /* the present pipe, with its constants: */
     double EA, GJ, EI;        /* [N, N m2, N m2] the smaller EI */
     double weight;            /* [kg/m] buoyant mass per metre with tool joints */
+    double elastic;           /* [-] share of the length that is elastic: tool joints are rigid */
     double radius;            /* [m] of the contact surface */
     double hole, pull;        /* [m, N/m] hole diameter, and pull of flowing mud in it; 0: not yet computed */
     int32_t new_pipe, reserved;
@@ -116,6 +117,7 @@ static void read_pipe(march *m, const dmb_pipe_def *pipe)
     m->GJ = section.stiffness[3];
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
     m->weight = dmb_weighing_mass(pipe, &soft->mud) / pipe->length;
+    m->elastic = 1.0 - pipe->joint_length / pipe->length;
     m->hole = 0.0;
     m->radius = 0.5 * fmax(pipe->outer_diameter, dmb_joint_diameter(pipe));
 }
@@ -185,8 +187,8 @@ static void rates(march *m, double depth, const double state[DMB_SOFT_COUNT], do
     rate[DMB_SOFT_FORCE] = dmb_vec3_dot(pipe.weight, pipe.tangent) - along * wall - pull_of_flow(m, depth);
     rate[DMB_SOFT_TORQUE] = around * wall * m->radius;
     rate[DMB_SOFT_GROWTH] = -along * by_force * state[DMB_SOFT_GROWTH];
-    rate[DMB_SOFT_STRETCH] = state[DMB_SOFT_FORCE] / m->EA;
-    rate[DMB_SOFT_WIND_UP] = state[DMB_SOFT_TORQUE] / m->GJ;
+    rate[DMB_SOFT_STRETCH] = m->elastic * state[DMB_SOFT_FORCE] / m->EA;
+    rate[DMB_SOFT_WIND_UP] = m->elastic * state[DMB_SOFT_TORQUE] / m->GJ;
     rate[DMB_SOFT_WALL] = wall;
 }
 
