@@ -1,3 +1,7 @@
+/* The caller's allocator, arenas, growing arrays, and an allocator in a block of the caller. All blocks are aligned for
+ * vector loads (DMB_ALIGNMENT) and zero, so that no result depends on what memory held before. An arena is used twice
+ * with the same code, first to count and then to place; red zones between its arrays (sanitizer builds) are part of the
+ * count. */
 #include "base/memory.h"
 
 #include <stdint.h>
@@ -216,6 +220,9 @@ static size_t rounded(size_t size)
     return (size + DMB_ALIGNMENT - 1) / DMB_ALIGNMENT * DMB_ALIGNMENT;
 }
 
+/* First fit: the lowest gap that is large enough. Its cost is the number of gaps, which is small, because objects are
+ * blocks of their own; and equal calls take equal places, so that a program that ran once in a pool runs in it again.
+ */
 static void *pool_allocate(void *context, size_t size, size_t alignment)
 {
     pool *p = context;
@@ -262,6 +269,8 @@ static int is_out(const pool *p, const gap *before, const gap *after, const unsi
     return after == NULL || (size_t)((const unsigned char *)after - block) >= size;
 }
 
+/* The gap is entered in the order of addresses, where neighbours touch, and joined with both: no two gaps are ever
+ * adjacent, and freeing everything leaves one. */
 static void pool_give(void *context, void *block, size_t size, size_t alignment)
 {
     pool *p = context;

@@ -24,7 +24,9 @@ static double *at(const schur *s, size_t i, size_t j)
 
 /* ---- Balancing --------------------------------------------------------------------------------------------------- */
 
-/* Scales row and column i to similar length, by a power of 2. Returns 0 if they are already. */
+/* Scales row and column i to similar length, by a power of 2, which is exact: rounding of the eigenvalues, relative to
+ * the norm of the matrix, is then smaller and nothing is added to it. A row or column of zeros has no scale. Returns 0
+ * if they are similar already, that is if their sum would fall by less than 5 %. */
 static int balance_row(schur *s, size_t i)
 {
     const size_t n = s->n;
@@ -56,7 +58,9 @@ static void balance(schur *s)
 
 /* ---- Reflections ------------------------------------------------------------------------------------------------- */
 
-/* v of I - beta v v^T that makes x a multiple of e1; returns beta, 0 if x is already. */
+/* v of I - beta v v^T that makes x a multiple of e1; returns beta, 0 if x = 0. x is divided by its largest entry, so
+ * that squares neither overflow nor vanish; the sign of the length is that of x_0, so that v_0 is a sum, not a
+ * difference: |v|^2 = 2 (L^2 + L |x_0|) = 2 L |v_0|, hence beta = 2/|v|^2 = 1/(L |v_0|). */
 static double reflection(size_t m, const double *x, double *v)
 {
     double most = 0.0, sum = 0.0;
@@ -92,6 +96,8 @@ static void from_right(size_t n, double *A, size_t m, size_t rows, const double 
     }
 }
 
+/* Column by column, a reflection of the rows below the subdiagonal clears the rest of the column; the same from the
+ * right keeps the eigenvalues and does not touch the columns that are done. Z collects the reflections. */
 static void hessenberg(schur *s)
 {
     const size_t n = s->n;
@@ -130,7 +136,11 @@ static void first_column(const schur *s, size_t l, double sum, double product, d
     x[2] = *at(s, l + 2, l + 1);
 }
 
-/* One step on rows l .. last, at least three. */
+/* One step on rows l .. last, at least three. Both shifts are the eigenvalues of the last block of two rows: they may
+ * be a complex pair, but enter by sum and product alone, so that all is real. The first reflection makes the first
+ * column that of (T - shift 1)(T - shift 2), which leaves a bulge of two entries below the subdiagonal; the following
+ * ones chase it off the end (implicit Q theorem). Rows above and columns behind the block are transformed too, since T
+ * becomes the Schur form. Exceptional shifts break the cycles of matrices that reproduce themselves. */
 static void francis(schur *s, size_t l, size_t last, int exceptional)
 {
     double sum = *at(s, last - 1, last - 1) + *at(s, last, last), x[3];
@@ -168,7 +178,9 @@ static void rotate(schur *s, size_t k, double c, double p)
     }
 }
 
-/* Computes the two eigenvalues of the block at k; if they are real, the block is made triangular. */
+/* Computes the two eigenvalues d + half +- sqrt(half^2 + b c) of the block [a b; c d] at k, half = (a - d)/2; if they
+ * are real, the block is made triangular. z is the larger root of z^2 - 2 half z - b c, without cancellation; the other
+ * one is -b c/z. The rotation has the eigenvector (z, c) of d + z as its first column. */
 static void split(schur *s, size_t k)
 {
     const double d = *at(s, k + 1, k + 1), half = 0.5 * (*at(s, k, k) - d), c = *at(s, k + 1, k);
@@ -187,6 +199,8 @@ static void split(schur *s, size_t k)
     s->im[k] = s->im[k + 1] = 0.0;
 }
 
+/* Eigenvalues leave at the end of the matrix, one or two at a time. Convergence is quadratic, some two or three steps
+ * each; 300 without one are a failure, and every tenth has other shifts. */
 static int32_t to_schur(schur *s)
 {
     int tries = 0;
@@ -225,6 +239,8 @@ static double complex rest(const schur *s, const double complex *y, size_t i, si
     return sum;
 }
 
+/* Close eigenvalues make components grow by the inverse of their distance, again and again up the matrix: the vector is
+ * scaled long before it overflows. Its length is set at the end. */
 static void scale_down(double complex *y, size_t from, size_t end)
 {
     const double most = fmax(fabs(creal(y[from])), fabs(cimag(y[from])));

@@ -51,7 +51,8 @@ static void check_periodic(dmb_check *check, const dmb_segment *segment)
                        "equal to the first value, with which the next period begins");
 }
 
-/* A segment per revolution follows a time function of this model, made of segments that are given by numbers alone. */
+/* A segment per revolution follows a time function of this model, made of segments that are given by numbers alone:
+ * eq:drive.per-revolution needs the angle, their integral, between any two times. */
 static void check_per_revolution(dmb_check *check, const dmb_model *model, const dmb_segment *segment)
 {
     dmb_check_id(check, model, "of", segment->of, DMB_PART_TIME_FUNCTION, "time function");
@@ -159,7 +160,8 @@ static void forget_unused(dmb_segment *segment)
     if (segment->kind != DMB_SEGMENT_PER_REVOLUTION) segment->of = (dmb_id){0, 0};
 }
 
-/* A copy of the time function that the segment follows: its segments stay where they are as long as the model lives. */
+/* A copy of the time function that the segment follows: its segments stay where they are as long as the model lives.
+ * The list of time functions may move when it grows, hence no pointer into it. */
 static double *follow(const dmb_model *model, dmb_segment *segment, double *numbers)
 {
     dmb_time_function *turning = (dmb_time_function *)(void *)numbers;
@@ -237,6 +239,8 @@ int32_t dmb_model_add_ramp(dmb_model *model, double from, double to, double star
     return dmb_model_add_time_function(model, &ramp, 1, time_function);
 }
 
+/* A drive with a constant value gets a time function like all others, so that steps know one kind of drive
+ * (dmb_model_compile). */
 int32_t dmb_model_append_constant(dmb_model *model, double value, uint32_t *index)
 {
     dmb_segment constant = dmb_segment_default();
@@ -302,6 +306,7 @@ static void check_column(dmb_check *check, const char *field, const double *valu
             dmb_check_fail(check, DMB_ERR_VALUE, field, values[i], "> the one before, by 1e-12");
 }
 
+/* A table takes the place of the gain, and both given would leave open which one acts. */
 static void check_gain_table(dmb_check *check, const dmb_drive_def *def)
 {
     if (def->gain_count == 0) return;

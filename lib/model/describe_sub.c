@@ -51,6 +51,8 @@ static void move_along_run(pose *p, const dmb_pipe_run *run)
     }
 }
 
+/* Without a hole: eq:kinematics.far-end, pipe by pipe, then straight on by the length of the sub. The order matters,
+ * because unstressed curvatures do not commute. */
 static void on_its_own(const dmb_model *model, double length, string_end *b)
 {
     static const double straight[3] = {0.0, 0.0, 0.0};
@@ -168,6 +170,8 @@ static void rotation_of(const string_end *b, double rotation[3])
     dmb_quat_log(b->end.q, rotation);
 }
 
+/* The section begins free in all components (the joints hold it), at the measured depth at which the first string and
+ * the sub end, so that both have the same wall and the same depths. */
 static void place_section(const string_end *b, dmb_string_def *section)
 {
     section->follows_hole = b->in_hole;
@@ -270,6 +274,8 @@ static int32_t join(dmb_model *model, const dmb_joint_def *given, dmb_place a, d
     return dmb_model_add_joint(model, &def, joint);
 }
 
+/* Poses of body and section are computed before either is added: both count from the end of the pipes described so far.
+ * The body is joined at its reference point on both sides, the second joint a length further on its x axis. */
 static int32_t add_all(dmb_model *model, const dmb_sub_def *def, dmb_sub *made)
 {
     dmb_body_def body = dmb_body_def_default();
@@ -304,6 +310,8 @@ static extent extent_of(const dmb_model *model)
                     model->refused.further};
 }
 
+/* A sub is four parts of the description, and a call that fails has added none. Lists grow at their ends only and own
+ * nothing beyond their items here, so that their numbers alone undo it. */
 static void take_back(dmb_model *model, const extent *before)
 {
     model->bodies.count = before->bodies;

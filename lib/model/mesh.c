@@ -110,7 +110,9 @@ void dmb_mesh_release(dmb_mesh *mesh)
 
 /* ---- Counting ---------------------------------------------------------------------------------------------------- */
 
-/* Runs sorted by string with one pass to count and one to place; runs of a string keep their order. */
+/* Runs sorted by string with one pass to count and one to place; runs of a string keep their order. Counts are entered
+ * two places behind their string, so that after summing start[s + 1] is where string s begins; placing moves it on to
+ * the end of s, which is where s + 1 begins: in the end start[s] and start[s + 1] enclose the runs of s. */
 static int32_t order_runs(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -140,7 +142,8 @@ static uint64_t points_of(const dmb_model *model)
 }
 
 /* Upper bounds of nodes and elements: each string has one node more than elements, each free body one node, each
- * stabiliser and each point of a force at most one. */
+ * stabiliser and each point of a force at most one. They are reserved at once: lists that grew by halves would need two
+ * and a half times the memory of a long string while they are copied. Too many fail here, before any is made. */
 int32_t dmb_mesh_count(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -218,6 +221,8 @@ static bool has_damping(const dmb_mesh *mesh)
     return false;
 }
 
+/* A feature that the description does not use is switched off, so that a step does not test for it and its arrays do
+ * not exist. Friction needs contact; damping also counts if an input may bring it. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;

@@ -1,3 +1,8 @@
+/* The contents of the scene (dmb_scene_fill), from the growing lists of the mesh into the arrays of one block.
+ * Properties that a step would test for every part are determined once, here: elements with damping, bends or arms,
+ * scenes of beams alone, free rigid bodies. Order: rows and chains first, because drives are found by rows and free
+ * bodies by their chains; elements before the lengths of chains, which are means of theirs; joints and contact points
+ * before what is spread across them. */
 #include "model/mesh.h"
 
 #include <string.h>
@@ -191,6 +196,9 @@ static void copy_items(const dmb_vector *from, void *to)
     if (from->count > 0) memcpy(to, from->items, from->count * from->item_size);
 }
 
+/* The length scale L0 is the mean length of the elements: a rotation of 1 rad then counts as the displacement that it
+ * gives to the far end of an element (weights D of lib/theory/statics.md, limits of corrections). Without elements
+ * it is 1 m. */
 static void fill_elements(const dmb_mesh *mesh, dmb_scene *scene)
 {
     double length = 0.0;
@@ -225,11 +233,13 @@ static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
         if (drive->node == DMB_NONE) continue; /* it drives a joint */
         const bool path = scene->layout.size[drive->node] == DMB_NODE_AXIAL_TORSIONAL;
         const uint32_t component = (uint32_t)drive->component;
+        /* an axial-torsional node has the rows X and RX alone: components 0 and 3 are its rows 0 and 1 */
         drive->row = scene->layout.row[drive->node] + (path ? component / (uint32_t)DMB_RX : component);
     }
 }
 
-/* A joint's drives in the order in which they were added. */
+/* A joint's drives in the order in which they were added, which is that of its rows. Counting sort: numbers, then first
+ * places, then the numbers once more as the next place of each joint. */
 static void fill_joint_drives(dmb_scene *scene)
 {
     uint32_t first = 0;
@@ -253,6 +263,8 @@ static void fill_flow(const dmb_mesh *mesh, dmb_scene *scene)
     dmb_scene_fill_pulls(scene);
 }
 
+/* Contact points of strings come in the order of their nodes, those of bodies behind them in that of their description.
+ * Only the first are divided into chunks: two chunks must not add to the same node. */
 static uint32_t sites_in_order(const dmb_scene *scene)
 {
     const uint32_t count = dmb_node_sites(scene);
@@ -295,6 +307,9 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
 
 /* ---- Wall -------------------------------------------------------------------------------------------------------- */
 
+/* Constants that laws derive from the description (damping factor from the restitution, eq:contact.exact; correction of
+ * the peak, eq:friction.peak) are computed here, once. A feature that is switched off becomes the kind NONE, which the
+ * kernels skip. */
 static void fill_laws(const dmb_model *model, dmb_scene *scene)
 {
     const dmb_wall_def *w = &model->wall;
@@ -358,6 +373,7 @@ static void spread_along(dmb_scene *scene)
         if (scene->node_element[i - 1] != DMB_NONE) (void)copy_near(scene->near_contact, i - 1, i);
 }
 
+/* Across joints: for bodies and strings without a contact point of their own. */
 static int spread_across(dmb_scene *scene)
 {
     int more = 0;
@@ -370,6 +386,9 @@ static int spread_across(dmb_scene *scene)
     return more;
 }
 
+/* The search for the place of a node along the hole needs a start (eq:hole.foot has several roots in a hole that turns
+ * back): the depth of the nearest contact point, which each step finds anew. From last to first, so that of several
+ * points on a node the first counts; then alternately along chains and across joints until nothing changes. */
 static void fill_near_sites(dmb_scene *scene)
 {
     if (scene->near_contact == NULL) return;
@@ -406,7 +425,10 @@ static void lengthen_to(dmb_scene *scene, const uint32_t *chain_of, const dmb_sc
     if (chain->count == 1) chain->length = fmax(chain->length, dmb_vec3_norm(point->x));
 }
 
-/* sqrt(trace J/(2 m)) at the reference point, or the longest arm. */
+/* Length of a chain, by which its moments are divided where they are compared with forces (norms of the residual,
+ * weights of eq:joints.partition): of a string its mean element; of a body, with trace J = 2 integral of r^2 dm, the
+ * root mean square distance sqrt(trace J/(2 m)) of its mass from the reference point, or the longest arm of a joint,
+ * spring or force if that is longer. A point mass has none: 1 m. */
 static void fill_lengths(dmb_scene *scene)
 {
     uint32_t *chain_of = scene->node_chain;
@@ -436,6 +458,8 @@ static void fill_lengths(dmb_scene *scene)
         if (!(scene->chains[c].length > DMB_BODY_LENGTH_MIN)) scene->chains[c].length = 1.0;
 }
 
+/* An upper bound of l/m over all contact points: times the stiffness of the wall per metre it bounds the square of the
+ * frequency at which any of them can bounce, without a look at each. */
 static void fill_mobility(dmb_scene *scene)
 {
     scene->site_mobility = 0.0;

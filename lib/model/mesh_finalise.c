@@ -9,6 +9,8 @@
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
+/* Rows are free (solved for), prescribed by a motion drive, or held by a support; the last two are the constrained
+ * ones, whose residual is a reaction. */
 static void count_rows(const dmb_mesh *mesh, dmb_scene *scene)
 {
     for (uint32_t i = 0; i < mesh->nodes.count; ++i) {
@@ -65,6 +67,8 @@ static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
            dmb_free_rows(node) == DMB_SET_ALL && dmb_prescribed_rows(node) == 0;
 }
 
+/* None with joints anywhere: the projection onto constraints acts on velocities in body axes, while
+ * eq:integration.free-rigid integrates those of the centre of mass in other axes. */
 static uint32_t count_free_rigids(const dmb_mesh *mesh)
 {
     uint32_t count = 0;
@@ -285,6 +289,9 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
 
 /* ---- Freeze ------------------------------------------------------------------------------------------------------ */
 
+/* The same layout runs twice, on an arena that counts and on one that places: the size of the block cannot differ from
+ * what is put there. Only storage whose size follows from the finished scene (patterns, dense components) is allocated
+ * after it. */
 int32_t dmb_mesh_finalise(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;

@@ -65,7 +65,8 @@ static const dmb_input_def *input_of(const dmb_model *model)
     return NULL;
 }
 
-/* Smallest or largest flow rate: as described, or the bound of the input *by. */
+/* Smallest or largest flow rate: as described, or the bound of the input *by. An input that is not set at the start
+ * leaves the described rate, which may lie outside its bounds. */
 static double rate_at(const dmb_mesh *mesh, int largest, const dmb_input_def **by)
 {
     const dmb_input_def *def = input_of(mesh->model);
@@ -120,7 +121,8 @@ static void set_losses(flow_iterator *iterator, double hole, dmb_flow_piece *pie
     piece->annulus = dmb_annulus_loss_by(flow, piece->diameter[0], hole, &piece->shape);
 }
 
-/* Levers of the force on an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
+/* Levers of the force on an element as of a uniform load q on the cubic shape (dmb_scene_fill_pulls): q L/2 and q
+ * L^2/12 at each end are a force at the distance L/6 from it. A rigid length acts at its middle. */
 static void set_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
 {
     const double L = piece->length;
@@ -172,7 +174,9 @@ static int32_t add_pipe(flow_iterator *iterator, const dmb_pipe_map *pipe, doubl
     return add_piece(iterator, &piece, 1);
 }
 
-/* [Pa] Excess of inside over outside pressure at the rig end, as described, at a rate. */
+/* [Pa] Excess of inside over outside pressure at the rig end, as described, at a rate: losses of nozzle, bore and
+ * annulus along the way of the mud, and the difference of the two columns, (rho_o - rho_i) g . (bottom - top), of which
+ * the path between both ends does not matter. */
 static double pump_pressure(const dmb_mesh *mesh, double rate)
 {
     const dmb_environment_def *e = &mesh->model->environment;
@@ -195,6 +199,7 @@ static double pump_pressure(const dmb_mesh *mesh, double rate)
 
 #define DMB_PUMP_PRESSURE_MAX 1e12 /* [Pa] */
 
+/* The bound keeps forces by pressure (times an area) and their sums far from overflow; no pump comes near it. */
 static int32_t check_largest_pressure(const dmb_mesh *mesh)
 {
     const dmb_input_def *by;

@@ -49,6 +49,8 @@ static bool place_on_elastic(const dmb_mesh *mesh, const dmb_pipe_map *map, doub
     return true;
 }
 
+/* A rigid pipe is a part of its node: any of its fractions is a place, at an arm. On a flexible one a joint needs a
+ * node, because its equations are of one node on either side. */
 static bool place_on_string(const dmb_mesh *mesh, uint32_t string, const dmb_place *place, dmb_mesh_place *found)
 {
     const dmb_pipe_map *map = dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + place->pipe);
@@ -182,7 +184,8 @@ void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
     dmb_vec3_sub(to->position, from->position, span);
 }
 
-/* Places frame b at frame a: R_b M_b = R_a M_a, R_b x_b = R_a x_a - span. */
+/* Places frame b at frame a: R_b M_b = R_a M_a, R_b x_b = R_a x_a - span, so that C = 0 as described and closing the
+ * joints moves nothing, whatever the angle between the parts. */
 static void match_frame(const dmb_mesh *mesh, dmb_scene_joint *joint)
 {
     double Ra[9], Rb[9], Ma[9], x[3];
@@ -215,7 +218,7 @@ static dmb_joint_law law_of(const dmb_mesh *mesh, const dmb_joint_def *def, int 
     return law;
 }
 
-/* Six laws, or none if none of them acts. */
+/* Six laws, or none if none of them acts: a scene of ideal joints has no laws and no arrays for their touches. */
 static int32_t add_laws(dmb_mesh *mesh, const dmb_joint_def *def, dmb_scene_joint *joint)
 {
     dmb_joint_law laws[6];

@@ -60,7 +60,9 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
     return DMB_OK;
 }
 
-/* [byte] Size of the block with all arrays; more than any block can have if the sum is too large. */
+/* [byte] Size of the block with all arrays; more than any block can have if the sum is too large. Summed as doubles,
+ * which do not overflow: 65536 places of many points and classes exceed 32 bits. A counter keeps at most classes + 2
+ * turning points that are not counted yet (rainflow.c). */
 static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
 {
     const double counters = (double)places * options->points;
@@ -71,6 +73,7 @@ static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
     return (size_t)fmin(bytes, 0.75 * (double)SIZE_MAX);
 }
 
+/* Area and section modulus are those of the place, not of the pipe: in a tool joint stresses are smaller. */
 static void read_section(const dmb_sim *sim, dmb_place place, dmb_fatigue_section *out)
 {
     const uint32_t string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
@@ -197,8 +200,10 @@ static void count_cycle(void *context, const dmb_turn *low, const dmb_turn *high
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
-/* Level of the stress for counting, and 1 if it is beyond the range of levels. The value itself is kept, so that only
- * the order of turning points depends on levels. */
+/* Level of the stress for counting, and 1 if it is beyond the range of levels, which run from -stress_range to
+ * stress_range. Equal levels are no turning point, so that noise below a class does not fill the memory. The value
+ * itself is kept, so that only the order of turning points depends on levels, and damage is that of the values
+ * (eq:fatigue.rainflow). */
 static int read_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double stress)
 {
     const double classes = fatigue->options.classes;
@@ -270,7 +275,8 @@ int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns a copy of a counter with its residual turning points counted; its histogram is unchanged. */
+/* Returns a copy of a counter with its residual turning points counted, as if the run ended now; its histogram is
+ * unchanged. The counter itself goes on: half cycles of today may close to whole ones. */
 static dmb_fatigue_counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
 {
     dmb_fatigue_counter found = fatigue->counters[(size_t)place * fatigue->options.points + point];
@@ -312,6 +318,7 @@ static int32_t check_ask(const dmb_fatigue *fatigue, uint32_t place, const void 
     return place < fatigue->place_count ? DMB_OK : DMB_ERR_VALUE;
 }
 
+/* life: time until damage 1 if the run went on like this. */
 int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result)
 {
     const int32_t status = check_ask(fatigue, place, result);

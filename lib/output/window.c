@@ -152,13 +152,16 @@ int32_t dmb_window_reset(dmb_window *window)
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
-/* Number of the slot that contains a time. */
+/* Number of the slot that contains a time. Numbers are doubles, because a long run of short slots has more than 2^32;
+ * up to SLOT_NUMBER_MAX they are exact, and so is their remainder below. */
 static double slot_number(const dmb_window *w, double time)
 {
     if (!(w->length > 0.0)) return 0.0;
     return fmin(floor((time - w->first) * w->slot_count / w->length), SLOT_NUMBER_MAX);
 }
 
+/* The slot of a number is its remainder: the slot found there is older by a whole number of windows and is emptied.
+ * Slots that no sample falls into keep their old number, by which result_of leaves them out. */
 static slot *open_slot(dmb_window *w, double number)
 {
     const uint32_t place = (uint32_t)fmod(number, w->slot_count);
@@ -248,6 +251,8 @@ static void set_means(const slot_sum *total, double last, dmb_window_result *r)
     r->low_share = r->time > 0.0 ? total->low / r->time : 0.0;
 }
 
+/* Slots above now - slot_count, the present one included: the window is between length - length/slots and length long,
+ * and the last slot is not full. Extremes of a slot that is partly beyond cannot be divided. */
 static dmb_window_result result_of(const dmb_window *w, uint32_t output)
 {
     const double nan = (double)NAN, now = slot_number(w, w->last);

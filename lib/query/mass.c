@@ -237,7 +237,9 @@ static double fraction_of(double part, double scale)
     return scale > 0.0 ? fmin(fabs(part) / scale, DBL_MAX) : 0.0;
 }
 
-/* balance = energy supplied - energy dissipated - energy stored; 0 in continuous time.
+/* Works are integrals of the powers of forces on the bodies (eq:motion.work, ledger_work.c); dissipation is minus the
+ * work of its forces.
+ *   balance = energy supplied - energy dissipated - energy stored; 0 in continuous time
  *   scheme = -(work of inertia + work of potential) - (E - E_start)
  *   unexplained = balance - scheme = sum of all works: the work of the residual, from iterations that stopped early */
 static void balance(const dmb_ledger *ledger, dmb_energy *e)

@@ -50,7 +50,9 @@ static int to_next_run(station_iterator *iterator)
     return 0;
 }
 
-/* Pipe and fraction at a distance within the string. */
+/* Pipe and fraction at a distance within the string. Stations usually ascend: the iterator goes on from the run of the
+ * last one, so that a profile passes each run once; a station further back starts again at the rig. An end between two
+ * pipes of a run is the start of the second one; that of a run is the end of its last pipe. */
 static dmb_place place_at(station_iterator *iterator, dmb_id string, double distance)
 {
     const dmb_pipe_run *run;
@@ -120,7 +122,7 @@ static dmb_mud_pressure pressures(const station *at)
     return dmb_mud_pressure_at(at->sim, string, at->values[DMB_PROFILE_DISTANCE], at->values + DMB_PROFILE_X);
 }
 
-/* [N] rho Q V of the mud that flows inside. */
+/* [N] rho_i Q V_i of the mud that flows inside, V_i = Q/A_i: the last term of eq:mud.effective. */
 static double momentum(const station *at)
 {
     const dmb_mud_flow *flow = &at->sim->scene->flow;
@@ -128,7 +130,8 @@ static double momentum(const station *at)
     return flow->inside * flow->rate * flow->rate / dmb_ring_area(at->diameters[1], 0.0);
 }
 
-/* [N] p_o A_o - p_i A_i: effective less true axial force. */
+/* [N] p_o A_o - p_i A_i: effective less true axial force at rest (eq:mud.effective). With one mud at rest both
+ * pressures are equal, and the product with the ring of steel avoids the difference. */
 static double pressure_force(const station *at)
 {
     const dmb_mud_pressure p = pressures(at);
@@ -159,7 +162,8 @@ static void bending_values(station *at, const double force[6])
     }
 }
 
-/* Section forces; the true axial force requires the position, for the pressures. */
+/* Section forces. Equations and buckling know the effective force alone; the true one, N = N_e - (p_o A_o - p_i A_i) +
+ * rho_i Q V_i (eq:mud.effective), is that of a strain gauge, and requires the position, for the pressures. */
 static void section_values(station *at, int32_t groups)
 {
     double force[6], *v = at->values;
@@ -302,6 +306,8 @@ static void buckling_values(station *at)
     v[DMB_PROFILE_HELICAL_SHARE] = dmb_helical_ratio(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
 }
 
+/* Forces per metre: a contact point stands for a length of wall that the mesh decides; its force over that length is
+ * what a finer mesh approaches. */
 static int32_t contact_values(station *at)
 {
     const uint32_t site = nearest_site(at);
@@ -444,6 +450,7 @@ static int32_t begin_run(const dmb_sim *sim, const dmb_profile *given, const dou
     run->iterator.runs = sim->model->runs.items;
     run->iterator.run_count = sim->model->runs.count;
     rewind_iterator(&run->iterator);
+    /* lanes compute the loads of neighbouring elements together: with few stations most of them would not be used */
     dmb_kept_loads_begin(8 * (uint64_t)profile->station_count < sim->scene->element_count ? 1 : DMB_LOADS_KEPT,
                          &run->kept);
     return DMB_OK;

@@ -20,7 +20,8 @@
 
 DMB_DECLARE_STRUCT(dmb_joint_state)
 
-/* Acceleration V' of frame b relative to frame a. */
+/* Acceleration V' of frame b relative to frame a: L_b v_b' + L_a v_a' - ad(V) L_a v_a (below
+ * eq:joints.relative-motion); the last term, which the velocities alone determine, is `convective`. */
 static void relative_acceleration(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, double out[6])
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -48,8 +49,8 @@ static void coordinates(const dmb_sim *sim, uint32_t j, const dmb_relative *rela
     }
 }
 
-/* Forces of the joint's laws along its coordinates, as the equations apply them.
- * None in an open joint. */
+/* Forces of the joint's laws along its coordinates, at the end of the step. (A step over the touch of a stop is solved
+ * with their mean, eq:unilateral.mean.) None in an open joint. */
 static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -62,7 +63,8 @@ static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
     }
 }
 
-/* Reaction -J^T f, in frame b or rotated to the world. */
+/* Reaction -J^T f on body b: the residual, internal less external forces, contains +B^T lambda (eq:static.multipliers),
+ * so that the force of the joint on its bodies is the negative. In frame b or rotated to the world. */
 static void reaction(const dmb_sim *sim, uint32_t j, const dmb_joint_rows *rows, const double world[9],
                      dmb_joint_state *answer)
 {
@@ -110,6 +112,7 @@ int32_t dmb_answer_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *stat
     return dmb_joint_state_write(state, &answer);
 }
 
+/* Active rows come first in the rows of a constraint, so that their number is all that is needed. */
 int32_t dmb_answer_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
 {
     const int32_t status = dmb_ask(sim, multipliers);
@@ -172,6 +175,9 @@ double dmb_joint_violation(const dmb_sim *sim, uint32_t j)
 }
 
 /* ---- Supported ends: the residual in the rows that are not solved for -------------------------------------------- */
+
+/* The equations of a supported row are not solved: what forces and inertia leave over in it is the reaction. It is kept
+ * with the accepted state, since a later evaluation, for example of an analysis, overwrites the residual. */
 
 /* Residual of the constrained rows of the node as a wrench; components of free rows are 0. */
 static void support_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
@@ -321,6 +327,8 @@ int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
     return dmb_row_write(answer, &found);
 }
 
+/* Numbers of the part's equations among those of dmb_analysis_array and the Jacobian, which leave out inactive rows:
+ * rows of all constraints before it are counted as far as they are active. */
 int32_t dmb_answer_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count)
 {
     const int32_t status = dmb_ask(sim, first);

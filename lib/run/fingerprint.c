@@ -54,6 +54,7 @@ static uint64_t add_nodes(uint64_t h, const dmb_scene *s)
     return dmb_fnv_block(h, s->layout.size, n);
 }
 
+/* Of a bent element the mass alone: its other constants follow from those of the section and the rest shape. */
 static uint64_t add_type(uint64_t h, const dmb_element_type *t)
 {
     h = dmb_fnv_number(h, t->length);
@@ -87,6 +88,8 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+/* The laws as compiled: mu stands for the restitution of the description. A parameter that is missing here lets a
+ * snapshot into a model in which it differs. */
 static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
 {
     const double numbers[] = {
@@ -103,6 +106,8 @@ static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction
     return DMB_NUMBERS(h, numbers);
 }
 
+/* Stations by depth and tangent: points and curvatures follow from them by eq:hole.arc. Cutters change the radius of
+ * stations in a run, hence what determines their paths (face and length of bits) belongs to the wall. */
 static uint64_t add_wall(uint64_t h, const dmb_scene *s)
 {
     if (!s->has_hole) return dmb_fnv_word(h, 0);
@@ -215,6 +220,8 @@ static uint64_t add_loads(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+/* Numbers of laws that a bit does not have are left out: steps do not read them, and bits that differ in them alone
+ * move alike. */
 static uint64_t add_bits(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->bit_count; ++i) {
@@ -288,6 +295,8 @@ static uint64_t add_forces(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+/* Without an input of the flow rate steps read the forces of the flow on elements and nodes only, and two muds with the
+ * same forces are the same scene. */
 static uint64_t add_flow(uint64_t h, const dmb_scene *s)
 {
     if (s->flow_count == 0) return h;
@@ -343,6 +352,7 @@ static uint64_t add_joints(uint64_t h, const dmb_scene *s)
     return add_joint_laws(h, s);
 }
 
+/* factor[0] is 1 in every coupling; the others are minus the ratios of the description. */
 static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->coupling_count; ++i) {
@@ -403,6 +413,7 @@ static uint64_t add_inputs(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+/* The order of the calls is part of the value: a change of it refuses all snapshots of before. */
 uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
 {
     uint64_t h = add_counts(DMB_FNV_START, scene);
@@ -424,6 +435,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     return add_constraints(h, scene);
 }
 
+/* Options that decide the bits of a step; threads and progress, which do not, are left out. */
 uint64_t dmb_options_fingerprint(const dmb_sim_options *options)
 {
     const double numbers[] = {options->spectral_radius,    options->newton_tolerance, options->tolerance_translation,

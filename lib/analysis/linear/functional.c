@@ -37,7 +37,8 @@ static void exchange_motion(dmb_sim *copy)
     exchange(&copy->now.acceleration, &copy->trial.acceleration);
 }
 
-/* Appends a row and its coefficient. Rows between the last one and this one are included with 0. */
+/* Appends a row and its coefficient. Rows between the last one and this one are included with 0, so that functionals of
+ * one place have the same rows and are added entry by entry (dmb_functional_add). */
 static void set_value(uint32_t row, double value, dmb_functional *out)
 {
     do out->row[out->count] = out->count > 0 ? out->row[out->count - 1] + 1 : row;
@@ -79,7 +80,7 @@ void dmb_functional_add_node(const dmb_scene *scene, uint32_t node, dmb_function
 }
 
 /* The rows on which a section at a place may depend: those of the nodes that move it, and of one more node on either
- * side. */
+ * side: the force at a node is that of the element beside it, whose far end counts too. */
 int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
@@ -169,7 +170,9 @@ static void add_turned(const double v[6], const double row[6], double to[6])
     for (int i = 0; i < 6; i++) to[i] += product[i];
 }
 
-/* Body-frame speeds and their rates change by d' + g^ d and d'' + (g^ - w^) d' + (b^ - w^ g^) d (linearise.c). */
+/* Body-frame speeds and their rates change by d' + g^ d and d'' + (g^ - w^) d' + (b^ - w^ g^) d (linearise.c), with ^
+ * the matrix of ad, g `rest`, w `spin`, b `change`. Inserted into p d + s v + a v', this adds to the coefficients of d
+ * the rows s g^ + a (b^ - w^ g^), and to those of d' the rows a (g^ - w^): of a row by v^, that is ad(v)^T of it. */
 void dmb_functional_turn_frames(const dmb_linear *linear, dmb_functional *out)
 {
     const dmb_scene *scene = &linear->scene;

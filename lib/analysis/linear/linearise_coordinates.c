@@ -388,7 +388,8 @@ double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
     return most / sqrt(1.0 + linear->coordinates);
 }
 
-/* d . C d of random motions vanishes if C is skew, as gyroscopic terms are, or 0. */
+/* d . C d of random motions vanishes if C is skew, as gyroscopic terms are, or 0. Damping that takes energy from one
+ * motion and gives it to another could cancel for one d, hardly for four. */
 int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work)
 {
     const size_t rows = linear->rows;

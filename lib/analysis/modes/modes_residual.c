@@ -35,6 +35,9 @@ static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, co
     }
 }
 
+/* Square of the norm of (|K_ii| + |s|^2 M_ii) x_i: the size of the forces that balance in the equations of a mode, by
+ * the diagonals. A stiffness below the rounding of the largest one (dmb_linear_stiffness_at_least) counts as that: its
+ * row can hold no smaller residual. */
 static double norm_of_terms(const dmb_linear *linear, const double *x, double square)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
@@ -49,6 +52,8 @@ static double norm_of_terms(const dmb_linear *linear, const double *x, double sq
     return sum;
 }
 
+/* |R^T (K + s C + s^2 M) d| over the norm of its terms, d = x + i y with real matrices: products with x and y are added
+ * to real and imaginary part with the factor of their matrix. */
 double dmb_modes_residual(const dmb_mode_search *search, uint32_t k)
 {
     const dmb_linear *linear = search->linear;
@@ -238,6 +243,8 @@ static int is_mode(const dmb_mode_search *search, uint32_t k)
     return 0;
 }
 
+/* Of the lowest modes, those before the first refused one are a result (DMB_NOTE_INCOMPLETE): none below them is
+ * missing. Of a band or a neighbourhood every one may be the one that is wanted, and the analysis fails. */
 int32_t dmb_modes_check(dmb_mode_search *search)
 {
     dmb_modes *modes = search->modes;
@@ -311,7 +318,8 @@ static void add_forces(const refinement *p, const dmb_linear_matrix *A, number f
     }
 }
 
-/* Root of y^H Q(s) y nearest to s. */
+/* Root of y^H Q(s) y nearest to s: m s^2 + c s + k = 0, m = y^H M y and so on, has half +- sqrt(half^2 - k/m), half =
+ * -c/(2 m). */
 static number root_next_to(const refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
@@ -321,6 +329,9 @@ static number root_next_to(const refinement *p, number s)
     return cabs(a - s) < cabs(b - s) ? a : b;
 }
 
+/* One inverse iteration, y = Q(p)^-1 Q'(s) x with Q'(s) = 2 s M + C, by which the error of x goes down with the
+ * distance |p - s| although Q is quadratic in s (Ruhe 1973). Scaled to a largest component of 1, since Q(p) is nearly
+ * singular and y as long as 1/|p - s|. 0: p is singular, or y is not finite; the mode stays as it was. */
 static int turn(refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
@@ -344,7 +355,8 @@ static int turn(refinement *p, number s)
     return 1;
 }
 
-/* Reduces rounding of the solution, mostly in stiff motions: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. */
+/* Reduces rounding of the solution, mostly in stiff motions: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. The inverse
+ * blows up the part of the residual along the mode itself, which is no error of the shape: the projector removes it. */
 static void correct_general(refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
@@ -367,6 +379,8 @@ static void correct_general(refinement *p, number s)
     }
 }
 
+/* A real root keeps a real shape: the imaginary part that rounding leaves is cleared in each turn. If the root leaves
+ * its kind, real or complex, the iteration has gone to another mode, and the mode is left as it was. */
 static void refine_general(refinement *p, uint32_t k)
 {
     dmb_modes *modes = p->search->modes;

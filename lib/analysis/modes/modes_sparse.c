@@ -60,6 +60,9 @@ static void symmetric_metric(void *context, const double *x, double *y)
     mass_times(A->linear, x, y);
 }
 
+/* A x = P (K - p M)^-1 P^T M x (eq:modes.shift-invert), from M x, which the iteration has computed for its inner
+ * products. Without P a rigid-body motion has the value -1/p, the largest of all for a small shift, and each would cost
+ * vectors. */
 static void symmetric_apply(void *context, const double *x, const double *Mx, double *y)
 {
     const inverse *A = context;
@@ -132,6 +135,9 @@ static void general_metric(void *context, const double *x, double *y)
     mass_times(A->linear, x + rows, y + rows);
 }
 
+/* A (a; b) of the head comment. Gx is the product by the metric, (f^2 M a; M b): it gives M b, and over f^2 also p M a,
+ * so that only C a is a further product. w = a + p x follows without the mass matrix, from the upper half of (A - p)
+ * (x; w) = (a; b). */
 static void general_apply(void *context, const double *x, const double *Gx, double *y)
 {
     const inverse *A = context;
@@ -156,6 +162,8 @@ static void general_draw(void *context, uint64_t *seed, double *x)
     }
 }
 
+/* From values 1/(s - p) back to roots, s = p + conj(value)/|value|^2. Of a complex pair the iteration returns one
+ * member; its conjugate, with im > 0, is the one that is listed. */
 static int32_t add_general(dmb_mode_search *search, const dmb_krylov *found)
 {
     const size_t rows = search->linear->rows;
@@ -172,7 +180,10 @@ static int32_t add_general(dmb_mode_search *search, const dmb_krylov *found)
 
 /* ---- Both -------------------------------------------------------------------------------------------------------- */
 
-/* [1/s] Scale of the lowest frequencies, from the Rayleigh quotient of a motion smoothed twice. */
+/* [1/s] Scale f of the lowest frequencies: root of x . M x/(x . M K^-1 M x), the Rayleigh quotient of the inverse, of a
+ * motion x = K^-1 M r under random forces, in which modes count by omega^-4, so that the quotient is near those that
+ * are wanted. With w = s x, the two parts of the metric are then of the same size for them, and orthogonality in it
+ * loses no digits of either. */
 static double low_frequency(dmb_mode_search *search)
 {
     dmb_linear *linear = search->linear;
@@ -214,6 +225,8 @@ static int32_t go_on(void *context)
     return dmb_progress_pulse(A->linear->work);
 }
 
+/* Separated rigid-body motions are not in the image of P: they take away dimensions, without which the iteration would
+ * expect values that do not exist. */
 static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
 {
     const int general = search->general;

@@ -100,7 +100,8 @@ static int32_t make_curve(const speeds_run *r, dmb_speeds_curve *curve, uint32_t
     return DMB_OK;
 }
 
-/* Largest of the outputs over their limits, one after the other. */
+/* Largest of the outputs over their limits, one after the other: the maximum over o in eq:response.severity. The sum
+ * over orders follows in dmb_speeds_sum, because amplitudes of different frequencies may add and do at some instant. */
 static int32_t read_curve(const speeds_run *r, const dmb_response *response, const dmb_order *order,
                           dmb_speeds_curve *curve)
 {
@@ -122,6 +123,8 @@ static int32_t read_curve(const speeds_run *r, const dmb_response *response, con
     return DMB_OK;
 }
 
+/* Axes at rest: an order counts per revolution seen from outside, as an unbalance (order 1) or the blades of a bit do;
+ * in axes that turn its frequency would be shifted by the speed itself, which differs from point to point. */
 static dmb_response_options response_options(const speeds_run *r, double order)
 {
     dmb_response_options options = dmb_response_options_default();
@@ -249,6 +252,8 @@ static uint32_t count_silent(speeds_run *r)
     return first;
 }
 
+/* A result without a note claims that all dangerous speeds are in its bands; each reason why that may be wrong becomes
+ * part of the message. */
 static int32_t judge(speeds_run *r)
 {
     static const char *const ends[] = {"", "speed_low", "speed_high", "both speed_low and speed_high"};

@@ -43,7 +43,8 @@ static void add_entry(builder *b, uint32_t column, const double entry[3])
     for (uint32_t k = 0; k < b->to->kinds && k < 3; k++) b->to->value[k][b->at[column]] += entry[k];
 }
 
-/* Constrained columns take precedence: an entry of two constrained rows is in the column of the second. */
+/* Constrained columns take precedence: an entry of two constrained rows is in the column of the second, because columns
+ * were kept (dmb_linear_keep_constrained) and cleared before rows were. 54 = 3 matrices of 3 blocks of 6 entries. */
 static void add_block_entry(builder *b, uint32_t i, uint32_t r, uint32_t j, uint32_t c)
 {
     const dmb_linear *l = b->linear;
@@ -165,7 +166,9 @@ void dmb_sparse_rows_release(const dmb_allocator *allocator, dmb_sparse_rows *sp
     memset(sparse, 0, sizeof *sparse);
 }
 
-/* Two passes with the same code: the first one counts the entries, the second one stores them. */
+/* Two passes with the same code: the first one counts the entries, the second one stores them. `mark` holds the row in
+ * which a column was met last, so that a new row needs no clearing: the cost is that of the entries. The matrices have
+ * all rows of the scene, the Jacobian (one kind) as many as add_equations has met. */
 static int32_t build(const dmb_linear *linear, void (*add)(builder *), uint32_t kinds, dmb_sparse_rows *out)
 {
     const dmb_scene *scene = &linear->scene;
@@ -276,6 +279,7 @@ static int32_t put_residual(dmb_sim *sim, double *values)
     return status;
 }
 
+/* Multipliers have no length of the scene: joints that lock or open change the number of active equations. */
 static uint64_t length_of(const dmb_sim *sim, int32_t array)
 {
     if (array == DMB_ARRAY_POSITION) return 3 * (uint64_t)sim->scene->node_count;
