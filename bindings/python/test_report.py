@@ -25,7 +25,7 @@ from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
 from drillmbd.frames import SpeedBands  # noqa: E402
-from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating  # noqa: E402
+from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating, operations_of  # noqa: E402
 
 PACKAGE = HERE / "drillmbd"
 LIBRARY = HERE.parents[1] / "lib"
@@ -383,6 +383,22 @@ class VerdictTest(unittest.TestCase):
                                math.sqrt(3.0) * shear, 3)
         self.assertIn("by the estimated torque of the bit", tiles["Von Mises stress"].text)
 
+    def test_thrust_of_a_short_string(self):
+        """Where the hole goes down, the load on the bit is thrust of the rig at the first rods and weight of the string
+        at the last; the largest loads of all depths decide, as in torque-drag."""
+        text = SCENE.replace('"5 deg"', '"-60 deg"').replace("count = 8", "count = 60").replace(
+            'push = "100 kN"', 'push = "1.8 kN"')
+        made, tiles = self.study(text)
+        with made.scene.new_sim() as sim:
+            found = sim.torque_drag(operations_of(made.plan), [60.0 * (i + 1) / report.DEPTHS
+                                                               for i in range(report.DEPTHS)])
+        self.assertGreater(min(row.hook_load for row in found.rows[-1]), 0.0)
+        largest = max(-row.hook_load for rows in found.rows for row in rows)
+        self.assertEqual(made.demands["push"].value, largest)
+        self.assertEqual(tiles["Thrust at the rig"].verdict, "OVER")
+        self.assertIn("soft string, slide, bit at 1.5 m", tiles["Thrust at the rig"].text)
+        self.assertEqual({row[0]: row[3] for row in made.rows}["Load on the bit"], "OVER")
+
     def test_buckling_in_the_hole(self):
         self.assertEqual(self.study(SCENE.replace('"2 kN"', '"900 kN"'))[1]["Buckling in the hole"].verdict, "OVER")
         self.assertEqual(self.study(SCENE.replace('load = "2 kN"\n', ''))[1]["Buckling in the hole"].verdict,
@@ -503,6 +519,12 @@ class VerdictTest(unittest.TestCase):
                       "Buckling in the hole"):
             self.assertNotEqual(tiles[title].verdict, "OK", title)
         self.assertIn("other strings (other)", tiles["Pull at the rig"].text)
+
+    def test_operation_of_the_first_string(self):
+        """Its own bit and drives, also where those of another string come first in the file."""
+        before = '[[bit]]\nstring = "other"\ndiameter = "94 mm"\nload = "30 kN"\n'
+        made, _ = self.study(SCENE.replace("[[bit]]", OTHER_STRING.replace('[[bit]]', before + '[[bit]]')))
+        self.assertEqual(made.plan.weight_on_bit, 2000.0)
 
     def test_bit_without_a_diameter(self):
         """Its torque is not estimated, so that torque and stress are not cleared."""

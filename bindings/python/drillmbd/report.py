@@ -48,7 +48,7 @@ class Study:
         self.scene, self.out, self.title, self.units = scene, out, scene.title, out.units
         self.string, self.pipes = next(iter(scene.pipes.items()))
         self.part, self.limits = scene.names[self.string], scene.limits
-        self.plan: Operating = operating(scene)
+        self.plan: Operating = operating(scene, 0)  # of the first string
         self.operations: dict[str, Profile] = {}
         self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units, key=key)
                         for key, title, unit in (
@@ -214,7 +214,7 @@ class Study:
             depths = [first + (last - first) * (i + 1) / DEPTHS for i in range(DEPTHS)]
             found = sim.torque_drag(operations, depths=depths, string=self.part)
         load = phrase("{load} on the bit", load=units.text((plan.weight_on_bit or 0.0) / 1e3, "kN"))
-        self._soft_demands(found.rows[-1])
+        self._soft_demands(found.rows)
         self._confinement(found.rows[-1])
         for title, field, factor, label, limits in (
                 (phrase("Hook load by depth of the bit"), "hook_load", _force(units),
@@ -238,20 +238,35 @@ class Study:
                                                   "torque_N_m": finite(row.torque)}
                                               for name, row in zip(OPERATION_NAMES, found.rows[-1])}
 
-    def _soft_demands(self, rows: Any) -> None:
+    def _soft_demands(self, table: Any) -> None:
+        """The largest loads of each operation at all depths: a load on the bit that the weight of the string carries
+        at the end is thrust of the rig where the string is short."""
         strength = self._yield_strength()
-        for name, row in zip(OPERATION_NAMES, rows):
-            source = phrase("soft string, {operation}", operation=name)
-            if row.locked:
+        for number, name in enumerate(OPERATION_NAMES):
+            rows = [rows[number] for rows in table]
+            locked = [row for row in rows if row.locked]
+            if locked:
                 for key in ("push", "torque", "yield_stress"):
                     self.demands[key].failed.append(phrase("{source}: the string locks up, no thrust moves the bit",
-                                                           source=source))
-                continue
-            self.demands["pull" if row.hook_load > 0.0 else "push"].add(abs(row.hook_load), source)
-            self.demands["torque"].add(row.torque, source)
+                                                           source=self._soft_source(name, locked[-1], rows[-1])))
+            self._soft_demand("push", [(-row.hook_load, row) for row in rows if row.hook_load < 0.0], name, rows[-1])
+            self._soft_demand("pull", [(row.hook_load, row) for row in rows if row.hook_load > 0.0], name, rows[-1])
+            self._soft_demand("torque", [(row.torque, row) for row in rows if not row.locked], name, rows[-1])
             if not math.isnan(strength):
-                self.demands["yield_stress"].add(strength * row.yield_share, source)
+                self._soft_demand("yield_stress", [(strength * row.yield_share, row) for row in rows if not row.locked],
+                                  name, rows[-1])
+
+    def _soft_demand(self, key: str, values: list[tuple[float, Any]], name: Phrase, last: Any) -> None:
+        """The largest value of an operation, that of the last depth where it is the same."""
+        if values:
+            largest, row = max(reversed(values), key=lambda one: math.inf if math.isnan(one[0]) else one[0])
+            source = self._soft_source(name, row, last)
+            self.demands[key].add(largest, source)
             self.soft.append(source)
+
+    def _soft_source(self, name: Phrase, row: Any, last: Any) -> Phrase:
+        return phrase("soft string, {operation}", operation=name) if row is last else \
+            phrase("soft string, {operation}, bit at {depth}", operation=name, depth=self.units.text(row.depth, "m"))
 
     def _yield_strength(self) -> float:
         """[Pa] of all pipes; NaN where they differ or one has none: then no stress follows from the share."""
