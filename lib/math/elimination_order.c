@@ -68,6 +68,7 @@ static uint32_t remove_least(quotient *q)
     return least;
 }
 
+/* A degree may rise or fall; one of the two moves does nothing. */
 static void set_degree(quotient *q, uint32_t node, uint32_t degree)
 {
     q->degree[node] = degree;
@@ -196,7 +197,8 @@ static uint32_t append_subtree(const quotient *q, uint32_t root, uint32_t *child
     }
 }
 
-/* Children and roots keep their order of elimination. */
+/* Postorder changes neither fill nor operations, but puts each block next to those that it updates. Children and roots
+ * keep their order of elimination. */
 static void postorder(const quotient *q, uint32_t count, uint32_t *order)
 {
     uint32_t *child = q->mark, *sibling = q->place, *roots = q->heap;
@@ -228,7 +230,9 @@ static void lay_out(dmb_arena *arena, quotient *q)
     q->parent = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
 }
 
-/* Hubs are written to the end of order. */
+/* Hubs are written to the end of order: nodes with more than ten times the root of n neighbours, as of a body on which
+ * hundreds of others stand. They are few (their number times that of their neighbours is at most twice the couplings).
+ */
 static void set_hubs_aside(quotient *q, uint32_t *order)
 {
     const double bound = fmax(16.0, 10.0 * sqrt(q->n));

@@ -180,7 +180,8 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
     return law;
 }
 
-/* Side cutting is omitted without rock; axial-torsional nodes do not move sideways. */
+/* Side cutting is omitted without rock; axial-torsional nodes do not move sideways. The resistance is D = 2 pi zeta eps
+ * (a - b)/I of eq:bit.side, a surface from b to a in the place of the disc. */
 static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     if (!(def->side_cutting > 0.0) || (mesh->features & DMB_FEATURE_ROCK) == 0) return DMB_OK;

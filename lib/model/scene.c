@@ -1,3 +1,5 @@
+/* Computed from a finished scene: forces of flowing mud, warnings of contact points that never touch, the dense scene
+ * for analyses, masses beside places for bounds of frequencies. */
 #include "model/scene.h"
 
 #include <math.h>
@@ -107,6 +109,8 @@ uint32_t dmb_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *
 
 /* ---- The scene for analyses with dense clusters ------------------------------------------------------------------ */
 
+/* Places of each cluster's matrices in shared arrays: rows by columns, rows by rows, columns by columns. (rows +
+ * columns)^2 is more than any of them, so that one sum in doubles bounds all three before sizes are added. */
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene)
 {
     size_t dense = 0, square = 0, full = 0;
@@ -150,6 +154,9 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *scene)
     return made;
 }
 
+/* Steps and statics solve large clusters by sparse matrices, linear analyses need G of eq:joints.partition itself. They
+ * work on a second scene that differs in its clusters, blocks and pattern alone and shares everything else, where these
+ * are small enough (fits); otherwise there is none, and the analyses say so. */
 int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator)
 {
     dmb_arena arena;
@@ -185,7 +192,8 @@ void dmb_scene_release_dense(const dmb_scene *dense, const dmb_allocator *alloca
 
 /* ---- Mobility of contact sites ----------------------------------------------------------------------------------- */
 
-/* [kg] */
+/* [kg] Half of the elements on both sides: the adjacent mass, by which mobilities bound frequencies without the mass
+ * matrix (eq:contact.coarse, eq:unilateral.holding). */
 static double mass_beside(const dmb_scene *scene, uint32_t node)
 {
     double mass = 0.0;
@@ -238,8 +246,9 @@ static int invert_inertia(const dmb_rigid_mass *rigid, const double c[3], double
     return determinant > 0.0;
 }
 
-/* 1/m + the largest eigenvalue of r~^T J^-1 r~, r = x - c, which has rank 2: from its trace and its norm. The norm of
- * J^-1 for a couple. Infinite for inertias that vanish to rounding, 1/m for none. */
+/* 1/m + the largest eigenvalue of r~^T J^-1 r~, r = x - c, which has rank 2: with the eigenvalues a >= b its trace is a
+ * + b and the square of its norm a^2 + b^2, hence a = (trace + sqrt(2 norm^2 - trace^2))/2. The norm of J^-1 for a
+ * couple. Infinite for inertias that vanish to rounding, 1/m for none. */
 static double rigid_mobility(const dmb_rigid_mass *rigid, const double *x)
 {
     const double *J = rigid->inertia;

@@ -237,6 +237,7 @@ static int32_t check_model(const dmb_model *model)
     return model->scene->has_hole ? DMB_OK : DMB_ERR_UNSUPPORTED;
 }
 
+/* Number of rings. A spacing that divides the length but for rounding (1e-12) gives no thin last ring. */
 static int32_t tube_of(tube *t, double spacing)
 {
     double rings;

@@ -28,7 +28,9 @@ static int32_t check_index(const dmb_modes *modes, uint32_t index, const void *a
     return index < modes->count ? DMB_OK : DMB_ERR_VALUE;
 }
 
-/* Copy of the state with the real (part 0) or imaginary (part 1) part of a mode as velocity. */
+/* Copy of the state with the real (part 0) or imaginary (part 1) part of a mode as velocity: velocities of places are
+ * linear in those of the nodes, as small displacements are, and have the same coefficients. Only arrays that the
+ * queries read are exchanged; the state of the modes is not changed. */
 static dmb_sim moving(const dmb_modes *modes, uint32_t index, int part)
 {
     dmb_sim view = *modes->state;
@@ -50,7 +52,7 @@ int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info)
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
 
-/* Adds the strain energy of axial strain, of torsion, and of bending with shear. */
+/* Adds the strain energy of axial strain (component 0), of torsion (3), and of bending with shear (all others). */
 static void add_strain_parts(const dmb_sim *view, uint32_t first, uint32_t count, double sum[3])
 {
     for (uint32_t e = first; e < first + count; e++) {
@@ -93,6 +95,9 @@ static void add_kinetic_parts(const dmb_sim *view, double sum[3])
     }
 }
 
+/* With the shape as velocity its momentum is r_i^T M x, r_i the unit translations: the participation factor, and since
+ * x^H M x = 1 its square is the effective mass; over all modes these sum to the mass that supports leave free. Energies
+ * are those of the amplitude 1: the kinetic one has |s|^2. */
 static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
 {
     const double *s = modes->s + 2 * (size_t)index, size = hypot(s[0], s[1]);

@@ -171,7 +171,8 @@ static void follow(const double h[6], const double rate[6], const double second[
     }
 }
 
-/* d' = T6^-1(d) V_B - T6^-1(-d) V_A and its derivative, X(d, V_B) d' and X(-d, V_A) d' from the operators */
+/* d' = T6^-1(d) V_B - T6^-1(-d) V_A (eq:beam.strain-rate) and its derivative: T6^-1(d) V_B' - T6^-1(-d) V_A' and, from
+ * the operators, X(d, V_B) d' + X(-d, V_A) d', whose second sign is that of the second term times that of -d. */
 static void strain_rates(const double d[6], const dmb_material_point_motion *a, const dmb_material_point_motion *b,
                          double rate[6], double second[6])
 {

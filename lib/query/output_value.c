@@ -1,5 +1,8 @@
 /* Outputs: one number queried from a sim, for recorders, windows, responses and events. quantity_name contains their
- * names; dmb_output_value is the only function that computes their values. */
+ * names; dmb_output_value is the only function that computes their values. Each value comes from the query that a
+ * program would call, so that an output and the query cannot differ. Arrays of values here are in the order of their
+ * numbers in drillmbd/ask.h; quantities of a place or joint with six components begin at multiples of ten, and the last
+ * digit is the component. */
 #include "query/query.h"
 
 #include <math.h>

@@ -1,3 +1,5 @@
+/* Nodes of both sizes seen alike: depth, pose and six-component motion of a node, whether it moves freely or on the
+ * axis of the hole; and the part of the description that a node, element or row belongs to, for messages. */
 #include "sim/node.h"
 
 #include <math.h>

@@ -277,7 +277,8 @@ static dmb_sensitivity *allocate(const dmb_sim *sim, uint32_t count)
     return made;
 }
 
-/* Changes signs of quaternions to match `as`: q and -q are the same rotation. */
+/* Changes signs of quaternions to match `as`: q and -q are the same rotation, but the rate between two sims that have
+ * reached them in different ways would be q/step. */
 static void align(const dmb_sim *sim, const double *as, double *quaternion)
 {
     for (size_t i = 0; i < 4 * (size_t)sim->scene->node_count; i += 4) {

@@ -323,7 +323,9 @@ int32_t dmb_state_equation_rate(dmb_state_equation *equation, double time, const
     return leave(equation, status);
 }
 
-/* The number of independent coordinates stays, so that y keeps its length. */
+/* A new origin where the chart or the partition of the old one comes to its end. The number of independent coordinates
+ * stays, so that y keeps its length; a pose in which it is another one is singular, and the old partition is restored.
+ */
 static int32_t move_origin(dmb_state_equation *s, double time, const double *y)
 {
     const uint32_t count = s->count;

@@ -105,7 +105,9 @@ double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuratio
     return 0.5 * (dmb_vec6_dot(m.va, m.pa) + dmb_vec6_dot(m.vb, m.pb));
 }
 
-/* Axial, torsional and lateral part; the last is what remains, rotary inertia of bending included. */
+/* Axial, torsional and lateral part, each by the product of its components of velocity and momentum; the last is what
+ * remains, rotary inertia of bending and the coupling of bent or eccentric elements included, so that the three add up.
+ */
 void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double parts[3])
 {
