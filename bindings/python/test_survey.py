@@ -315,7 +315,7 @@ class WordsTest(unittest.TestCase):
             rig = scene.loads(text, folder=folder)
         told = "; ".join(words.describe(rig, 1000.0))
         for part in ("collar at dip +5.0 deg (rises), azimuth 350 deg", "surveyed length 200 m",
-                     "right of the collar line",
+                     "right of its line",
                      "between 100 m and 200 m", "20 pipes of 9 m", "reach 180 m", "weight 9.81 kN", "in a 216 mm hole",
                      "rotation 130 rpm", "8 kN on the bit",
                      "time step 2 ms"):

@@ -108,7 +108,7 @@ def _end(top: Any, end: Any) -> Phrase:
     right = 0.0 + round(east * math.cos(top.azimuth) - north * math.sin(top.azimuth), 6)  # no -0.0
     aside = (phrase("{distance:.1f} m right", distance=right) if right >= 0.0
              else phrase("{distance:.1f} m left", distance=-right))
-    return phrase("ends {height} and {aside} of the collar line", height=height, aside=aside)
+    return phrase("ends {height} the collar and {aside} of its line", height=height, aside=aside)
 
 
 # ---- String, bit, operation ------------------------------------------------------------------------------------------
