@@ -484,6 +484,18 @@ class LimitTest(unittest.TestCase):
         self.assertAlmostEqual(loose["back-off"], 500.0, 3)
         self.assertAlmostEqual(margins["back-off"], -100.0, 3)
 
+    def test_stress_of_a_short_pipe(self):
+        """A thin pipe of 100 mm between pipes of 1 m is seen, wherever it is; torsion by the closed form."""
+        pipes = '[[string.pipes]]\nlength = "{}"\nouter_diameter = "{} mm"\ninner_diameter = "{} mm"\n'
+        first = RIG[RIG.index("[[string.pipes]]"):RIG.index("[[time_function]]")]
+        wanted = math.sqrt(3.0) * 500.0 * 0.0225 / (math.pi / 32.0 * (0.045 ** 4 - 0.035 ** 4)) / 400e6
+        for joint in ("", 'joint_length = "10 mm"\n'):
+            thin = pipes.format("100 mm", 45, 35) + joint
+            for text in (thin + 3 * first, first + thin + 3 * pipes.format("1 m", 73, 61), 2 * first + thin):
+                found, _ = sampled(failure("stress", strength="400 MPa"), RIG.replace(first, text),
+                                   {"time_function[0].segment.h0": 0})
+                self.assertAlmostEqual(found["stress"] / wanted, 1.0, 5)
+
     def test_stress_and_buckling(self):
         found, _ = sampled(failure("stress", strength="400 MPa"), overrides={"load.moment": [0, 0, 0]})
         self.assertAlmostEqual(found["stress"] / (2000.0 / AREA / 400e6), 1.0, 5)

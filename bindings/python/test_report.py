@@ -25,6 +25,7 @@ from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
 from drillmbd.frames import SpeedBands  # noqa: E402
+from drillmbd.profile import values_of  # noqa: E402
 from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating, operations_of  # noqa: E402
 
 PACKAGE = HERE / "drillmbd"
@@ -450,6 +451,21 @@ class VerdictTest(unittest.TestCase):
             made._confinement([unittest.mock.Mock(helical_share=one, sinusoidal_share=other, buckled_at=1.0, locked=0)
                                for one, other in ((0.6, 0.85), (0.55, sinusoidal))])
             self.assertEqual(made.tiles[-1].verdict, wanted)
+
+    def test_stress_of_a_short_pipe(self):
+        """A thin pipe that is shorter than the spacing of stations has its stress in statics and run."""
+        thin = ('[[string.pipes]]\ncount = 3\n[[string.pipes]]\nlength = "100 mm"\nouter_diameter = "40 mm"\n'
+                'inner_diameter = "36 mm"\n[[string.pipes]]\ncount = 8')
+        text = SCENE.replace("[[string.pipes]]\ncount = 8", thin).replace("2 kN", "20 kN")
+        made, _ = self.study(text, _bit_torque=lambda: None)
+        loaded = made.scene
+        with loaded.new_sim() as sim:
+            sim.static(**loaded.fields_of("static"))
+            values = values_of(sim, loaded.names["main"], [enums.PROFILE_VON_MISES], count=20001)
+            self.assertGreater(made._stress(sim), 0.95 * values.max())
+            even = sim.profile(loaded.names["main"], 12)["von_mises"]
+        self.assertLess(even.max(), 0.8 * values.max())
+        self.assertGreater(made.demands["yield_stress"].value, 0.95 * values.max())
 
     def test_rigid_pipes(self):
         """They have no stress, so that the others alone are not cleared."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ._keep import station
 from ._library import lib
 from ._optional import need
-from ._structs import Id, ProfileStruct
+from ._structs import Id, PipeDef, ProfileStruct
 from ._values import whole
 from .enums import ProfileQuantity
 from .errors import Error
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 QUANTITIES = list(ProfileQuantity)
+INSIDE = 1e-6  #: of a pipe, a station behind its beginning
+SECTION = ("length", "elements", "outer_diameter", "inner_diameter", "joint_length", "joint_outer_diameter",
+           "joint_inner_diameter")
 
 
 def unit_of(quantity: int) -> str:
@@ -153,6 +156,34 @@ def extremes_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any =
     sim._told(lib.dmb_query_profile_extremes(sim._handle, byref(requested.request), found),
               lib.dmb_query_profile_extremes, string)
     return [Extremes(*found[4 * i:4 * i + 4]) for i in range(len(requested.wanted))]
+
+
+def ends_of_elements(calls: Iterable[tuple[str, Any]], string: Id) -> Any:
+    """[m] Distances from the rig end at which each section of a string is seen, by its description: the ends of all
+    elements, the beginning of each kind of pipes, and tool joints that are weaker than their pipe. Stations spread
+    evenly miss pipes that are shorter than their spacing."""
+    numpy, start = need("numpy"), 0.0
+    found = [numpy.zeros(1)]
+    for name, arguments in calls:
+        if name != "add_pipes" or arguments[1].get("string") != string:
+            continue
+        pipe: Any = PipeDef(**{key: value for key, value in arguments[1].items() if key in SECTION})
+        count = int(arguments[0])
+        found += [[start + INSIDE * pipe.length],
+                  (start + pipe.length * numpy.arange(count)[:, None] + _ends(pipe)).reshape(-1)]
+        start += pipe.length * count
+    return numpy.minimum(numpy.concatenate(found), start)
+
+
+def _ends(pipe: Any) -> list[float]:
+    """[m] Places in a pipe that its section forces are taken at. The end of a pipe without tool joint is the beginning
+    of the next one."""
+    body = float(pipe.length - pipe.joint_length)
+    ends = [body * (i + 1) / pipe.elements for i in range(pipe.elements)]
+    if not pipe.joint_length > 0.0:
+        return ends
+    weak = 0.0 < pipe.joint_outer_diameter < pipe.outer_diameter or pipe.joint_inner_diameter > pipe.inner_diameter
+    return [INSIDE * pipe.length, *ends, *([float(pipe.length)] if weak else [])]
 
 
 def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:

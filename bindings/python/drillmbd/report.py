@@ -18,7 +18,7 @@ from .fatigue import StringFatigue
 from .language import Foreign, Phrase, joined, phrase
 from .operating import Operating, has_rock_law, operating, operations_of, polar_moduli
 from .plots import COLOURS, words_of
-from .profile import Profile, values_of
+from .profile import Profile, ends_of_elements, extremes_of, values_of
 from .commands import columns_of
 from .report_basis import Row, assumptions, headline, limits_at_the_rig
 from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded, value_axis
@@ -48,6 +48,7 @@ class Study:
         self.scene, self.out, self.title, self.units = scene, out, scene.title, out.units
         self.string, self.pipes = next(iter(scene.pipes.items()))
         self.part, self.limits = scene.names[self.string], scene.limits
+        self.stations = ends_of_elements(scene.model.calls, self.part)
         self.plan: Operating = operating(scene, 0)  # of the first string
         self.operations: dict[str, Profile] = {}
         self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units, key=key)
@@ -189,6 +190,7 @@ class Study:
         with scene.new_sim() as sim:
             status = self._static(sim, **slip)
             found = self.operations[name] = sim.profile(scene.names[self.string], self.pipes)
+            within = self._stress(sim)
         axial = float(found.axial_force[0])
         at_rig = {"push": -axial, "pull": axial, "torque": abs(float(found.torque[0]))}[key]
         source = phrase("stiff string, {operation}, loads of time 0 s", operation=name)
@@ -197,7 +199,7 @@ class Study:
             for demand in (key, "yield_stress"):
                 self.demands[demand].failed.append(phrase("{source}: an unstable state, which the string leaves",
                                                           source=source))
-        stress = _largest(found["von_mises"])
+        stress = _largest([*found["von_mises"], within])
         if any(math.isnan(one) for one in found["von_mises"]) and math.isnan(self._yield_strength()):
             self.demands["yield_stress"].failed.append(phrase("{source}: rigid pipes, which have no stress",
                                                               source=source))
@@ -485,8 +487,7 @@ class Study:
 
     def _stress(self, sim: Sim) -> float:
         """[Pa] The largest along the string."""
-        quantity = enums.PROFILE_VON_MISES
-        return float(sim.profile_extremes([quantity], self.part, self.pipes, 1)[quantity].maximum)
+        return extremes_of(sim, self.part, [enums.PROFILE_VON_MISES], self.stations)[0].maximum
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
         found = sim.profile(self.part, self.pipes, 1)

@@ -12,7 +12,7 @@ from .. import enums
 from .._keep import as_place
 from .._optional import need
 from .._structs import TorqueDragRow
-from ..profile import extremes_of
+from ..profile import ends_of_elements, extremes_of
 from ..scene.failure import KINDS, Failure
 from ..sim import Sim
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 #: Signals are named (part, quantity, extreme): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min"
 #: over it.
 COURSE = 100  #: stretches between the depths at which courses are compared
-STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
 
 
 # ---- From signals to a demand ----------------------------------------------------------------------------------------
@@ -231,6 +230,8 @@ class Watch:
                    for part, quantity, what in HOW[one.kind].signals.values()}
         self.outputs = sorted(one for one in signals if one[2] == "")
         self.profiles = sorted(one for one in signals if one[2] in ("max", "min"))
+        self.stations = {name: ends_of_elements(scene.model.calls, scene.names[name])
+                         for name in dict.fromkeys(one[0] for one in self.profiles)}
         self.counters = {one.name: self._fatigue(one) for one in self.failures if one.kind == "fatigue"}
         places = [(as_place(scene.names[name]), quantity) for name, quantity, _ in self.outputs]
         self.recorder = sim.recorder(places, looks + 2) if places else None
@@ -262,7 +263,7 @@ class Watch:
             mine = [(i, one) for i, one in enumerate(self.profiles) if one[0] == name]
             quantities = list(dict.fromkeys(one[1] for _, one in mine))
             found = dict(zip(quantities, extremes_of(self.sim, self.scene.names[name], quantities,
-                                                     count=min(self.scene.pipes[name], STATIONS) + 1)))
+                                                     self.stations[name])))
             for i, (_, quantity, what) in mine:
                 row[i] = found[quantity].maximum if what == "max" else found[quantity].minimum
         return row
