@@ -200,7 +200,8 @@ static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const
     out->depth_of_cut = depth->value;
 }
 
-/* g and d of eq:bit.rate as functions with derivatives: U enters by the engagement alone. */
+/* g and d of eq:bit.rate as functions with derivatives: U enters by the engagement alone. The torque grows as 1/Omega,
+ * so that near rest a step longer than eq:bit.rate-limit has no solution. */
 static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, double omega, dmb_bit_rock_result *out)
 {
     double grip_slope, inverse_slope;

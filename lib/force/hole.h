@@ -112,8 +112,9 @@ uint32_t dmb_hole_search(const dmb_hole *hole, const double x[3], double middle,
  * hole) or more if no further arc has one. */
 uint32_t dmb_hole_next_foot(const dmb_hole *hole, const double x[3], uint32_t arc);
 
-/* Radial offset of x from the axis: u = x - axis_point without its component along tangent, *e = |u| [m], n = u/e.
- * Below e = 1e-12 m (concentric) the direction is undefined and n is n_last, the last direction; n may be n_last. */
+/* Radial offset of x from the axis (eq:contact.frame): u = x - axis_point without its component along tangent, *e = |u|
+ * [m], n = u/e. Below e = 1e-12 m (concentric) the direction is undefined and n is n_last, the last direction; n may be
+ * n_last. */
 void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
                 double *e, double n[3]);
 

@@ -103,8 +103,9 @@ static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
 /* ---- Stopping rule -----------------------------------------------------------------------------------------------
  *
  * With newton_tolerance = 0 the bound follows the local error of the step, given by corrector minus predictor
- * (eq:integration.milne). The error of z after the last correction accumulates in the velocities, so the bound falls
- * with the frequency of the motion (eq:integration.stop). Derivation: theory/integration.md, "Where Newton stops". */
+ * (eq:integration.milne). The error of z after the last correction accumulates in the velocities
+ * (eq:integration.left-impulse), so the bound falls with the frequency of the motion (eq:integration.stop). Derivation:
+ * theory/integration.md, "Where Newton stops". */
 
 #define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
 #define DMB_NEWTON_LINEAR 0.7 /* [-] factor on that after a linear prediction (small corrections) */

@@ -1,5 +1,6 @@
 /* Choice between the constant prediction, v1' = v0', and the linear one, which continues the acceleration
- * (eq:integration.prediction). The linear one is tried under the conditions of may_be_linear; after each accepted step:
+ * (eq:integration.prediction), as a0 - v0' remembers it (eq:integration.memory). The linear one is tried under the
+ * conditions of may_be_linear; after each accepted step:
  *
  *     the step                                             next steps
  *     --------------------------------------------------   ----------------------------------------------------------

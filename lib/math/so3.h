@@ -36,7 +36,7 @@ typedef struct dmb_so3_inverse_coefficients {
     dmb_real c, e, e2;
 } dmb_so3_inverse_coefficients;
 
-/* s4 = sum (-x)^k/(2k+4)!   s5 = sum (-x)^k/(2k+5)! */
+/* s4 = sum (-x)^k/(2k+4)!   s5 = sum (-x)^k/(2k+5)!, the tails of the series of eq:kinematics.coefficients */
 static inline void dmb_so3_tails(dmb_real x, int terms, dmb_real *s4, dmb_real *s5)
 {
     static const double c4[13] = {4.1666666666666664e-02,  -1.3888888888888889e-03, 2.4801587301587302e-05,
@@ -58,7 +58,8 @@ static inline void dmb_so3_tails(dmb_real x, int terms, dmb_real *s4, dmb_real *
     *s5 = v;
 }
 
-/* a2 = 1/6 - x s5, b = 1/2 - x s4, a = 1 - x a2; db = (a-2b)/x and da2 = (b-3 a2)/x become series without division. */
+/* a2 = 1/6 - x s5, b = 1/2 - x s4, a = 1 - x a2; db = (a-2b)/x and da2 = (b-3 a2)/x (eq:kinematics.coefficient-rates)
+ * become series without division. */
 static inline void dmb_so3_coefficients_series(dmb_real x, int terms, dmb_so3_coefficients *k)
 {
     dmb_real s4, s5;

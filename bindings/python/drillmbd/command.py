@@ -18,7 +18,7 @@ from .unit_choice import NAMES
 
 EXAMPLES = """examples:
   drillmbd check rig.toml                     describes the scene and warns of doubtful values
-  drillmbd run rig.toml --output out          run it, with table, pictures and files for ParaView
+  drillmbd run rig.toml --output out          runs the scene; table, pictures and files for ParaView
   drillmbd run rig.toml --until "5 s" --step "2 ms"
   drillmbd run rig.toml --output out          again after Ctrl-C: continues where it was stopped
   drillmbd static rig.toml --output out       static equilibrium: shape, forces, contact with the wall
@@ -115,7 +115,7 @@ def parser() -> argparse.ArgumentParser:
                         "computes thrust, pull, torque and make-up torque for each number of rods in the hole"),
                        ("stuck",
                         "computes pull, push and torque that arrive at a stuck bit, and the free point by stretch"),
-                       ("report", "makes one HTML page about it all; needs plotly")):
+                       ("report", "writes one HTML page with all results; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
         command.add_argument("--output", "-o", metavar="FOLDER",
@@ -291,7 +291,7 @@ def _add_live(commands: Any) -> None:
 
 
 def _add_probability(commands: Any) -> None:
-    text = "finds how often the failures of the scene come about where its [variability] varies"
+    text = "estimates the probability of each [[failure]] of the scene over its [variability]"
     command = commands.add_parser("probability", help=text, description=text, epilog=PROBABILITY,
                                   formatter_class=argparse.RawDescriptionHelpFormatter)
     command.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")

@@ -1,4 +1,5 @@
-/* Modal analysis (dmb_analysis_modes): options, checks, selection of method, and summary of all modes. Order:
+/* Modal analysis (dmb_analysis_modes; eq:modes.undamped, eq:modes.damped): options, checks, selection of method, and
+ * summary of all modes. Order:
  *
  *   search_modes    checks (equilibrium, constant coefficients, count), dmb_modes_find, refinement, check of every mode
  *   find_weakly_skew   undamped modes of a K that is weakly non-symmetric: those of its symmetric part, refined

@@ -121,7 +121,8 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
 /* ---- By weight and tension --------------------------------------------------------------------------------------- */
 
 /* Soft-string torque and drag (Johancsik, Friesen, Dawson 1984; eq:drilling.soft-string): a node at this depth lies on
- * the side to which weight and tension in the curved hole press it, u = w + T k l, and the wall carries |u|. */
+ * the side to which weight and tension in the curved hole press it, u = w + T k l (eq:static.pull), and the wall
+ * carries |u|. */
 static void guess_pressed(const dmb_static_search *search, const dmb_site *site, double depth, double tension)
 {
     dmb_sim *sim = search->sim;

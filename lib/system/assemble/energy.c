@@ -418,7 +418,7 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
 }
 
 /* The same of an axial-torsional element, axial force and torque at its end A: N - (M a)_A + half its weight along the
- * axis. */
+ * axis (eq:drilling.rig-end). */
 void dmb_axial_torsional_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                      double load[2])
 {

@@ -1,4 +1,4 @@
-/* The equations of joints, couplings, joint drives and callbacks at the trial:
+/* The equations of joints, couplings, joint drives and callbacks at the trial (eq:motion.constraints):
  *
  *     C(q, t) = 0,   B v + rate = 0,   B v' + convective = 0,   B = dC by body-frame motion of the nodes
  *

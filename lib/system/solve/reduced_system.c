@@ -4,9 +4,9 @@
  *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]   (eq:static.newton)                (DMB_METHOD_INDEPENDENT)
  *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
  *
- * (eq:joints.reduced-system, eq:joints.saddle), with S the iteration matrix of the nodes (blocks of the
- * block-tridiagonal storage) and of the joints. Sequence: put_nodes, put_constraints, make_null_space, reduce_cluster
- * or border_cluster for each dense component; assemble_off_diagonal between blocks; sparse components by
+ * (eq:joints.reduced-system, eq:joints.saddle; of statics eq:static.reduced), with S the iteration matrix of the nodes
+ * (blocks of the block-tridiagonal storage) and of the joints. Sequence: put_nodes, put_constraints, make_null_space,
+ * reduce_cluster or border_cluster for each dense component; assemble_off_diagonal between blocks; sparse components by
  * reduced_system_sparse.
  *
  *     block                              unknowns y                                     z of its nodes
