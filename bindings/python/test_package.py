@@ -708,7 +708,7 @@ class ArraysTest(unittest.TestCase):
         frame = counted.frame()
         self.assertEqual(frame["pipe"].tolist(), list(range(10)))
         self.assertEqual(frame["damage [-]"].tolist(), [one.damage for one in counted.results])
-        self.assertEqual(len(counted.counter.frame()), 10)
+        self.assertEqual(len(counted.counter.frame()), 21)  # beginnings and middles, and the end of the last pipe
         along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 4)
         self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]",
                                                        "wall force [N/m]"])

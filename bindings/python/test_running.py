@@ -183,6 +183,31 @@ class OwnStepsTest(unittest.TestCase):
         self.assertGreater(found[1], 0.0)
         self.assertLess(abs(found[0] / found[1] - 1.0), 0.1)
 
+    def test_fatigue_of_ends_of_pipes(self):
+        """A string that sags and turns, held at the rig: cycles are largest at the beginning of its first pipe, and
+        where the thin pipes end; by counters at single places."""
+        made = mbd.Model()
+        string = made.add_pipes(2, length=2.0, joint_length=0.2, joint_outer_diameter=0.09, damping_time=1e-3)
+        made.add_pipes(1, string=string, outer_diameter=0.12, damping_time=1e-3)
+        turning = made.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP5, x1=0.5, h1=10.0))
+        made.add_drive(part=string, component=mbd.RX, time_function=turning)
+        made.add_drive(part=string, time_function=made.add_time_function(0.0))
+        made.compile()
+        options, fractions = {"curve_stress": 1e8, "slope": 4.0}, (0.0, 0.5, 0.9 - 1e-9)
+        with made.sim() as sim:
+            sim.static()
+            counter = sim.string_fatigue(string, **options)
+            single = {(pipe, fraction): sim.fatigue([mbd.station(string, pipe, fraction)], **options)
+                      for pipe in range(2) for fraction in fractions}
+            sim.run(3.0, step=2e-3, counters=[counter, *single.values()])
+            damage = {place: one.result().damage for place, one in single.items()}
+            found = [one.damage for one in counter.results]
+            self.assertEqual(found[0], damage[0, 0.0])
+            self.assertEqual(found[1], max(damage[1, fraction] for fraction in fractions))
+            self.assertGreater(found[0], 2.0 * damage[0, 0.5])
+            self.assertEqual(counter.worst, 0)
+            self.assertEqual(counter.histogram(), single[0, 0.0].histogram())
+
 
 class NotesTest(unittest.TestCase):
     def run_of(self, **options):

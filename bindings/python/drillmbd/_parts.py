@@ -19,6 +19,7 @@ class Parts:
     def __init__(self) -> None:
         self.stamp = 0
         self.pipes: dict[int, int] = {}
+        self.ends: dict[int, dict[int, float]] = {}  # last pipes of each kind, and where their body ends
         self.sites = 0
         self.names: dict[str, list[Id]] = {}
 
@@ -27,6 +28,11 @@ class Parts:
         self.stamp = part.generation
         if part.index >> 24 == PartKind.STRING:
             self.pipes[part.index] = self.pipes.get(part.index, 0) + pipes
+
+    def add_end(self, string: Id, joint: float) -> None:
+        """Ends a kind of pipes, with tool joints of that share of their length, at the present end of a string."""
+        within = 1e-9 if joint > 0.0 else 0.0  # the tool joint has another section
+        self.ends.setdefault(string.index, {})[self.pipes[string.index] - 1] = 1.0 - joint - within
 
     def find(self, name: str, word: str = "", field: str = "part") -> Id:
         """The part of that name; of a kind by `word`, as "drive", where parts of several kinds have it."""

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_size_t, c_void_p, create_string_buffer
+from ctypes import Structure, byref, c_double, c_size_t, c_void_p, create_string_buffer
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
@@ -16,14 +16,13 @@ if TYPE_CHECKING:
     from ._structs import Id
     from .sim import Sim
 
-PLACES = 200  #: along a string, at most; one a pipe where there are fewer
+PLACES = 200  #: pipes along a string, at most
 
 
-def middles(string: Id, pipes: int) -> tuple[list[int], list[Place]]:
-    """Pipes of a string, spread evenly where there are more than PLACES, and the middle of each."""
+def counted(pipes: int) -> list[int]:
+    """Numbers of the pipes of a string that are counted, spread evenly where there are more than PLACES."""
     count = min(pipes, PLACES)
-    numbers = [round((i + 0.5) * pipes / count - 0.5) for i in range(count)]
-    return numbers, [station(string, number, 0.5) for number in numbers]
+    return [round((i + 0.5) * pipes / count - 0.5) for i in range(count)]
 
 
 class Fatigue(Handle):
@@ -87,26 +86,52 @@ class Fatigue(Handle):
 
 
 class StringFatigue:
-    """Counts along a whole string, in the middle of each pipe; made by Sim.string_fatigue."""
+    """Counts along a whole string, at the beginning and in the middle of each pipe, and where the body of the last pipe
+    of a kind ends; made by Sim.string_fatigue. The end of another pipe is the beginning of the next one."""
 
     def __init__(self, sim: Sim, string: Id, pipes: int, **fields: Any) -> None:
         pipes = whole(pipes, "string fatigue", "pipes", 1)
-        self.pipes, places = middles(string, pipes)  #: numbers of the pipes, from the rig end
+        self.pipes = counted(pipes)  #: numbers of the pipes, from the rig end
         self.count = pipes  #: of the string; there may be more than are counted
-        self.sim, self.counter = sim, sim.fatigue(places, **fields)
+        ends = sim._parts.ends.get(string.index, {})
+        places = [(i, station(string, number, fraction)) for i, number in enumerate(self.pipes)
+                  for fraction in (0.0, 0.5, *([ends[number]] if number in ends else []))]
+        self._owners = [i for i, _ in places]
+        self.sim, self.counter = sim, sim.fatigue([place for _, place in places], **fields)
 
     def take(self) -> int:
         """A sample; returns the status."""
         return self.counter.take()
 
+    def _worst_places(self) -> list[tuple[int, FatigueResult]]:
+        """Of each of the pipes the place of the largest damage, or without any of the largest range. Stresses beyond
+        the range at another place count as its own, because the worst one is not known then."""
+        found: list[tuple[int, FatigueResult]] = []
+        for place, owner in enumerate(self._owners):
+            one = self.counter.result(place)
+            if owner == len(found):
+                found.append((place, one))
+                continue
+            before = found[owner][1]
+            clipped = max(one.clipped, before.clipped)
+            if (one.damage, one.largest_range) > (before.damage, before.largest_range):
+                found[owner] = place, one
+            Structure.__setattr__(found[owner][1], "clipped", clipped)
+        return found
+
     @property
     def results(self) -> list[FatigueResult]:
-        """Of each of the pipes."""
-        return [self.counter.result(i) for i in range(len(self.pipes))]
+        """Of each of the pipes, of its worst place."""
+        return [one for _, one in self._worst_places()]
+
+    def histogram(self) -> tuple[list[float], list[float]]:
+        """Ranges [Pa] and how many cycles have them, at the worst place of the worst pipe."""
+        return self.counter.histogram(self._worst_places()[self.worst][0])
 
     def _asdict(self) -> dict[str, list[Any]]:
         """Numbers of the pipes, and the fields of their results by name."""
-        return {"pipe": list(self.pipes), **self.counter._asdict()}
+        from .frames import by_field
+        return {"pipe": list(self.pipes), **by_field(FatigueResult, self.results)}
 
     def frame(self) -> Any:
         """The pipes as a pandas frame, one row each, units in the names of its columns."""

@@ -182,7 +182,9 @@ class Model(Handle, ModelCalls):
             count = whole(count, "pipes", "count")
             self._check(_lib.dmb_model_add_pipes(self._handle, byref(definition), count, byref(string)))
             self._note("add_pipes", count, definition)
-            return self._given(string, count)
+            self._given(string, count)
+            self._parts.add_end(string, definition.joint_length / definition.length)
+            return string
 
         def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
             """Adds a rigid body, by a BodyDef or its fields; returns its id."""

@@ -377,7 +377,7 @@ def fatigue(found: StringFatigue, title: str = "", units: Units = SI) -> Any:
     figure, ((damage, cycles),) = _axes(1, 2, (11, 4.5))
     damage.plot(found.pipes, [one.damage for one in found.results], **SINGLE)
     damage.set(xlabel="pipe, counted from the rig end", ylabel="damage of this run [-]")
-    ranges, counts = found.counter.histogram(found.worst)
+    ranges, counts = found.histogram()
     factor = units.factor("Pa") if units.name != "si" else 1e-6
     known = [(factor * stress, count) for stress, count in zip(ranges, counts) if count > 0.0]
     width = factor * (ranges[1] - ranges[0])

@@ -407,7 +407,7 @@ class Study:
             "layout": {"xaxis": {"title": {
                                  "text": phrase("pipe, counted from 0 at the rig end")}},
                        "yaxis": {"title": {"text": phrase("damage [-]")}, "exponentformat": "power"}}}))
-        ranges, cycles = counter.counter.histogram(counter.worst)
+        ranges, cycles = counter.histogram()
         known = [(1e-6 * self.units.factor("MPa") * stress, count) for stress, count in zip(ranges, cycles)
                  if count > 0.0]
         self.figures.append((phrase("Cycles of stress at pipe {pipe}", pipe=pipe),
