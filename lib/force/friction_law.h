@@ -19,7 +19,7 @@ enum { DMB_FRICTION_CALLBACK_SLIDING = 1000 };
 typedef struct dmb_friction_law {
     int32_t kind;              /* DMB_FRICTION_... */
     int32_t points;            /* [-] of a table that replaces the Stribeck curve; 0: none */
-    double mu_static;          /* [-] */
+    double mu_static;          /* [-]; numbers from here to the table belong to the fingerprint of a model */
     double mu_dynamic;         /* [-] */
     double stribeck_speed;     /* [m/s] v_s > 0 */
     double smoothing_speed;    /* [m/s] v_eps of COULOMB and STRIBECK, v0 of AMBROSIO; > 0 */

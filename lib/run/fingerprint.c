@@ -7,6 +7,9 @@
  */
 #include "run/run.h"
 
+#include <stddef.h>
+#include <string.h>
+
 /* Hashes member by member, without padding and pointers. */
 #define DMB_NUMBERS(hash, array) dmb_fnv_numbers((hash), (array), sizeof(array) / sizeof(double))
 
@@ -89,13 +92,13 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
 }
 
 /* The laws as compiled: mu stands for the restitution of the description. A parameter that is missing here lets a
- * snapshot into a model in which it differs. */
+ * snapshot into a model in which it differs; those of friction are all members from the first to the table. */
 static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
 {
-    const double numbers[] = {
-        n->stiffness,    n->exponent,          n->damping,        n->impact_depth,   n->mu,
-        n->impact_floor, f->mu_static,         f->mu_dynamic,     f->stribeck_speed, f->smoothing_speed,
-        f->full_speed,   f->bristle_stiffness, f->bristle_damping};
+    enum { FIRST = offsetof(dmb_friction_law, mu_static), END = offsetof(dmb_friction_law, table_speed) };
+    const double normal[] = {n->stiffness, n->exponent, n->damping, n->impact_depth, n->mu, n->impact_floor};
+    double friction[(END - FIRST) / sizeof(double)];
+    memcpy(friction, (const char *)f + FIRST, sizeof friction);
     h = dmb_fnv_word(h, (uint32_t)n->kind);
     h = dmb_fnv_word(h, (uint32_t)f->kind);
     if (f->kind == DMB_FRICTION_CALLBACK) h = dmb_fnv_word(h, f->states); /* its function cannot be hashed */
@@ -103,7 +106,8 @@ static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction
         h = dmb_fnv_number(h, f->table_speed[i]);
         h = dmb_fnv_number(h, f->table_mu[i]);
     }
-    return DMB_NUMBERS(h, numbers);
+    h = DMB_NUMBERS(h, normal);
+    return DMB_NUMBERS(h, friction);
 }
 
 /* Stations by depth and tangent: points and curvatures follow from them by eq:hole.arc. Cutters change the radius of
