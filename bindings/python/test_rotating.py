@@ -111,6 +111,18 @@ class LinearStateTest(SpeedsTest):
     """One linear state for response and speeds."""
     SCENE = SCENE
 
+    def test_amplitudes_at_tool_joints(self):
+        """Tool joints of 90 mm leave 2 mm of the hole's 94 mm, pipes of 73 mm leave 10.5 mm."""
+        scene = scenes.loads(SCENE.replace('eccentricity = "0.5 mm"',
+                                           'joint_length = "0.3 m"\njoint_outer_diameter = "90 mm"'))
+        for pipe, fraction, clearance in ((0, 0.0, 10.5e-3), (6, 0.5, 10.5e-3), (6, 0.79, 10.5e-3), (6, 0.81, 2e-3),
+                                          (6, 1.0, 2e-3), (7, 0.0, 2e-3)):
+            place = station(scene.names["main"], pipe, fraction)
+            found = critical_speeds.clearance_at(scene, place)
+            self.assertAlmostEqual(found, clearance, delta=1e-12, msg=f"pipe {pipe}, {fraction}")
+            output = mbd.Output(quantity=mbd.enums.OUTPUT_VIBRATION + mbd.enums.Y, place=place)
+            self.assertEqual("touches the wall" in critical_speeds.touches(scene, output, 5e-3), clearance < 5e-3)
+
     def test_what_the_analysis_leaves_out(self):
         """Pipes that are not round: response and speeds neglect what changes as they turn, so that no speed is free;
         modes that are not found are missing."""

@@ -158,9 +158,17 @@ def touches(scene: Scene, place: Output, amplitude: float, units: Units = SI) ->
             "analysis")
 
 
+def _diameter_at(arguments: tuple[Any, ...], fraction: float) -> float:
+    """[m] Outer diameter of a pipe of a call, of its tool joint at its far end."""
+    pipe: Any = _structs.PipeDef(**{key: value for key, value in arguments[1].items() if key in
+                                    ("length", "outer_diameter", "joint_length", "joint_outer_diameter")})
+    in_joint = pipe.joint_length > 0.0 and fraction * pipe.length >= pipe.length - pipe.joint_length
+    return float(in_joint and pipe.joint_outer_diameter or pipe.outer_diameter)
+
+
 def clearance_at(scene: Scene, place: Place) -> float | None:
-    """[m] Radial clearance of the pipe at a place of a string; None without hole or pipe."""
-    first = 0
+    """[m] Radial clearance of the pipe or tool joint at a place of a string; None without hole or pipe."""
+    first, before = 0, 0.0  # before: diameter of the tool joint that ends where the pipe begins
     if not any(name == "add_wall" for name, _ in scene.model.calls):
         return None
     for name, arguments in scene.model.calls:
@@ -169,8 +177,11 @@ def clearance_at(scene: Scene, place: Place) -> float | None:
         if first <= place.pipe < first + arguments[0]:
             with scene.new_sim() as sim:
                 depth = sim.pose(place).depth
-            outer = float(arguments[1].get("outer_diameter", _structs.PipeDef().outer_diameter))
+            if place.pipe > first:
+                before = _diameter_at(arguments, 1.0)
+            outer = max(_diameter_at(arguments, place.fraction), before if place.fraction == 0.0 else 0.0)
             return 0.5 * (float(scene.model.hole(depth).diameter) - outer)
+        before = _diameter_at(arguments, 1.0)
         first += arguments[0]
     return None
 
