@@ -739,7 +739,7 @@ typedef struct dmb_torque_drag_row {
     double helical_share, buckled_at; /* [-; m] the same of helical buckling; measured depth where that is */
     double helix_length; /* [m] of string above the load of helical buckling */
     double yield_share, yield_at; /* [-; m] largest von Mises stress over yield_strength, bending to the hole's curvature
-        included; NaN where a pipe has no yield_strength; measured depth where */
+        between rigid tool joints included; NaN where a pipe has no yield_strength; measured depth where */
     double stretch, wind_up; /* [m; rad] by the effective force, > 0 longer; of the rig end against the bit; tool joints rigid */
     double wall_force; /* [N] sum over the string */
 } dmb_torque_drag_row;

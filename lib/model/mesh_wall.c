@@ -51,6 +51,7 @@ typedef struct site_iterator {
     uint32_t pipe;   /* whose far end it is */
     double offset;   /* [m] from the node */
     double diameter; /* [m] largest diameter of the adjacent stretches */
+    double rubbing;  /* [m] the same with the tool joints of their pipes */
     double length;   /* [m] half of the adjacent stretches known so far */
     uint32_t string; /* index */
     uint32_t ring;   /* next one in rings */
@@ -79,9 +80,11 @@ static int32_t push_site(dmb_mesh *mesh, const dmb_site *site)
     return dmb_vector_append(&mesh->sites, &mesh->model->allocator, &added, 1);
 }
 
+/* A node on the hole's axis stands for its pipes, which touch the wall with their tool joints: its radius does not
+ * depend on the mesh (R_p of eq:drilling.soft-string). */
 static int32_t push_axial_torsional_site(const site_iterator *iterator)
 {
-    const dmb_axial_torsional_site site = {.radius = 0.5 * iterator->diameter,
+    const dmb_axial_torsional_site site = {.radius = 0.5 * fmax(iterator->diameter, iterator->rubbing),
                                            .length = iterator->length,
                                            .part = iterator->part,
                                            .pipe = iterator->pipe,
@@ -141,19 +144,22 @@ static int32_t finish_place(site_iterator *iterator)
     return moves_sideways(node, iterator->offset) ? push_site(iterator->mesh, &site) : DMB_OK;
 }
 
-/* Adds a stretch of the given length and diameter; the next contact point starts at its far end. */
-static int32_t pass_stretch(site_iterator *iterator, double length, double diameter, uint32_t node, double offset,
-                            uint32_t pipe)
+/* Adds a stretch of the given length; the next contact point starts at its far end. */
+static int32_t pass_stretch(site_iterator *iterator, double length, const dmb_pipe_def *def, uint32_t node,
+                            double offset, uint32_t pipe)
 {
+    const double rubbing = fmax(def->outer_diameter, dmb_joint_diameter(def));
     const double half = 0.5 * (length - iterator->inside - iterator->joint);
     int32_t status;
     iterator->length += half;
-    iterator->diameter = fmax(iterator->diameter, diameter);
+    iterator->diameter = fmax(iterator->diameter, def->outer_diameter);
+    iterator->rubbing = fmax(iterator->rubbing, rubbing);
     status = finish_place(iterator);
     iterator->node = node;
     iterator->offset = offset;
     iterator->pipe = pipe;
-    iterator->diameter = diameter;
+    iterator->diameter = def->outer_diameter;
+    iterator->rubbing = rubbing;
     iterator->length = half + iterator->joint;
     iterator->inside = iterator->joint = 0.0;
     return status;
@@ -175,13 +181,12 @@ static int32_t pass_elastic_pipe(site_iterator *iterator, const dmb_pipe_map *pi
     int32_t status = DMB_OK;
     for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
         iterator->inside = fraction_inside(def) * element[e].length;
-        status = pass_stretch(iterator, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
+        status = pass_stretch(iterator, element[e].length, def, pipe->node + e + 1, 0.0, number);
     }
     if (status < 0) return status;
     iterator->inside = fraction_inside(def) * last->length;
     iterator->joint = iterator->inside > 0.0 ? pipe->joint : 0.0;
-    return pass_stretch(iterator, last->length + pipe->joint, def->outer_diameter, last->node + 1,
-                        pipe->joint - last->arm[1], number);
+    return pass_stretch(iterator, last->length + pipe->joint, def, last->node + 1, pipe->joint - last->arm[1], number);
 }
 
 /* The first contact point is the rig end. Each stretch ends the point before it and begins the next one, which is
@@ -204,8 +209,7 @@ static int32_t pass_string(dmb_mesh *mesh, uint32_t string, uint32_t *ring)
         if (pipe->elements > 0) {
             status = pass_elastic_pipe(&iterator, pipe, def, pipes.number);
         } else {
-            status = pass_stretch(&iterator, pipe->length, def->outer_diameter, pipe->node, pipe->start + pipe->length,
-                                  pipes.number);
+            status = pass_stretch(&iterator, pipe->length, def, pipe->node, pipe->start + pipe->length, pipes.number);
         }
         iterator.diameter = fmax(iterator.diameter, dmb_joint_diameter(def));
     }

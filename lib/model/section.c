@@ -41,6 +41,11 @@ double dmb_pipe_body_length(const dmb_pipe_def *def)
     return def->length - def->joint_length;
 }
 
+double dmb_body_curvature(const dmb_pipe_def *def, double hole)
+{
+    return hole * (def->length / dmb_pipe_body_length(def));
+}
+
 double dmb_joint_diameter(const dmb_pipe_def *def)
 {
     return def->joint_length > 0.0 ? given_or(def->joint_outer_diameter, def->outer_diameter) : 0.0;

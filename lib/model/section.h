@@ -27,6 +27,9 @@ void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section);
 
 /* [m] of a pipe without its rigid tool joint. */
 double dmb_pipe_body_length(const dmb_pipe_def *def);
+/* [1/m] Curvature of the pipe without its tool joint in a hole of the curvature `hole`: the rigid tool joint does not
+ * bend (eq:drilling.bending). */
+double dmb_body_curvature(const dmb_pipe_def *def, double hole);
 /* [m] outer diameter of the tool joint, 0 where there is none. */
 double dmb_joint_diameter(const dmb_pipe_def *def);
 

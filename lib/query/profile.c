@@ -147,7 +147,7 @@ static const dmb_pipe_map *pipe_of(const station *at)
 }
 
 /* Bending from the moment, because the strain of an element is a mean. Axial-torsional pipes have the curvature of the
- * hole instead. */
+ * hole instead, which their tool joints do not share (eq:drilling.bending). */
 static void bending_values(station *at, const double force[6])
 {
     double *v = at->values;
@@ -155,11 +155,11 @@ static void bending_values(station *at, const double force[6])
     dmb_section_of(&at->run->def, &section);
     v[DMB_PROFILE_BENDING_MOMENT] = hypot(force[4], force[5]);
     v[DMB_PROFILE_CURVATURE] = hypot(force[4] / section.stiffness[4], force[5] / section.stiffness[5]);
-    if (in_tool_joint(at)) v[DMB_PROFILE_CURVATURE] = 0.0;
     if (pipe_of(at)->kind == DMB_PIPE_AXIAL_TORSIONAL) {
-        v[DMB_PROFILE_CURVATURE] = dmb_vec3_norm(at->bend);
+        v[DMB_PROFILE_CURVATURE] = dmb_body_curvature(&at->run->def, dmb_vec3_norm(at->bend));
         v[DMB_PROFILE_BENDING_MOMENT] = fmax(section.stiffness[4], section.stiffness[5]) * v[DMB_PROFILE_CURVATURE];
     }
+    if (in_tool_joint(at)) v[DMB_PROFILE_CURVATURE] = 0.0;
 }
 
 /* Section forces. Equations and buckling know the effective force alone; the true one, N = N_e - (p_o A_o - p_i A_i) +

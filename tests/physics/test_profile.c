@@ -240,6 +240,30 @@ static void axial_torsional(void **state)
     destroy(&s);
 }
 
+/* Rigid tool joints do not bend: the pipe between them turns by the angle of the hole along the whole pipe, and so more
+ * per metre; its moment continues into the tool joint (eq:drilling.bending). */
+static void axial_torsional_tool_joints(void **state)
+{
+    static const double survey[6] = {0.0, 1.0, 0.0, 120.0, 1.6, 0.0};
+    const double curvature = 0.6 / 120.0 * 2.0 / 1.6;
+    scene s = describe(60);
+    (void)state;
+    s.wall.survey = survey;
+    s.wall.survey_count = 2;
+    s.pipe.length = 2.0;
+    s.pipe.joint_length = 0.4;
+    s.pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    compile(&s, 1);
+    check_relative("pipe", at(&s, DMB_PROFILE_CURVATURE, 61.0), curvature, 1e-9);
+    assert_true(at(&s, DMB_PROFILE_CURVATURE, 61.8) == 0.0);
+    for (int i = 0; i < 2; i++)
+        check_relative("moment", at(&s, DMB_PROFILE_BENDING_MOMENT, 61.0 + 0.8 * i),
+                       2.1e11 * second_moment(&s) * curvature, 1e-9);
+    check_relative("von Mises", at(&s, DMB_PROFILE_VON_MISES, 61.0),
+                   fabs(at(&s, DMB_PROFILE_EFFECTIVE_FORCE, 61.0)) / area(&s) + 2.1e11 * 0.0365 * curvature, 1e-9);
+    destroy(&s);
+}
+
 /* On a straight line beyond both ends of the survey; a straight survey tells its ends likewise. */
 static void beyond_the_survey(void **state)
 {
@@ -341,6 +365,7 @@ int main(void)
         cmocka_unit_test(building),
         cmocka_unit_test(twisted),
         cmocka_unit_test(axial_torsional),
+        cmocka_unit_test(axial_torsional_tool_joints),
         cmocka_unit_test(same_as_single_queries),
         cmocka_unit_test(beyond_the_survey),
         cmocka_unit_test(refused),

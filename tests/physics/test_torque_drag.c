@@ -104,6 +104,36 @@ static void tool_joints_are_rigid(void **state)
     }
 }
 
+/* Tool joints touch the wall, on axial-torsional nodes of every mesh: the torque of a string that turns in a horizontal
+ * hole is mu W R_p with their radius, as of the soft string; thinner ones leave it to the pipe. */
+static void tool_joints_rub(void **state)
+{
+    const dmb_output torque = {.quantity = DMB_OUTPUT_RIG_TORQUE};
+    dmb_static_options turning = dmb_static_options_default();
+    (void)state;
+    turning.slip_rotation = 1.0;
+    for (uint32_t elements = 1; elements <= 4; elements += 3)
+        for (int thin = 0; thin < 2; thin++) {
+            scene s = describe(20, NULL, 0);
+            double found = 0.0;
+            s.pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+            s.pipe.elements = elements;
+            s.pipe.length = 3.0;
+            s.pipe.joint_length = 0.3;
+            s.pipe.joint_outer_diameter = thin ? 0.07 : 0.09;
+            s.pipe.joint_mass = 12.0;
+            s.wall.direction[0] = 1.0;
+            s.wall.direction[2] = 0.0;
+            compile(&s);
+            const double W = weight(&s) * 54.0 + 20.0 * 12.0 * 9.81;
+            must(dmb_analysis_static(s.sim, &turning, NULL), dmb_sim_message(s.sim));
+            must(dmb_query_output(s.sim, &torque, &found), dmb_sim_message(s.sim));
+            check_relative("torque", found, 0.3 * W * (thin ? 0.0365 : 0.045), 1e-6);
+            check_relative("soft string", row_of(&s, DMB_OPERATION_ROTATE).torque, found, 1e-6);
+            destroy(&s);
+        }
+}
+
 /* Pulled through a hole that builds on an arc of radius R, N/R > w sin i all along:
  *     dN/di = -mu N - w R cos i + mu w R sin i,   N = A exp(-mu i) + a sin i + b cos i,
  * a = w R (mu^2 - 1)/(1 + mu^2), b = -2 mu w R/(1 + mu^2); `load` hangs at the far end. */
@@ -142,6 +172,23 @@ static void capstan(void **state)
     up.weight_on_bit = turn.weight_on_bit = -5000.0;
     check_relative("pull", row_with(&s, NULL, &up).hook_load, 5000.0 * exp(0.3 * angle), 1e-9);
     check_relative("torque", row_with(&s, NULL, &turn).torque, 0.3 * 0.0365 * 5000.0 * angle, 1e-9);
+    destroy(&s);
+}
+
+/* The bend alone, on pipes with rigid tool joints: the pipe between them turns by the angle of the whole
+ * (eq:drilling.bending). */
+static void yield_share_between_tool_joints(void **state)
+{
+    static const double survey[6] = {0.0, 0.0, 0.0, 30.0, 0.3, 0.0};
+    scene s = describe(10, survey, 2);
+    (void)state;
+    s.pipe.length = 3.0;
+    s.pipe.joint_length = 0.3;
+    s.pipe.yield_strength = 724e6;
+    s.environment.gravity[2] = 0.0;
+    compile(&s);
+    check_relative("yield share", row_of(&s, DMB_OPERATION_ROTATE).yield_share, 2.1e11 * 0.0365 / 100.0 / 0.9 / 724e6,
+                   1e-9);
     destroy(&s);
 }
 
@@ -629,8 +676,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inclined),
         cmocka_unit_test(tool_joints_are_rigid),
+        cmocka_unit_test(tool_joints_rub),
         cmocka_unit_test(pulled_through_an_arc),
         cmocka_unit_test(capstan),
+        cmocka_unit_test(yield_share_between_tool_joints),
         cmocka_unit_test(yield_share_at_jumps),
         cmocka_unit_test(against_statics),
         cmocka_unit_test(lock_up),

@@ -164,16 +164,16 @@ static void keep_largest(double value, double depth, double *largest, double *at
     if (at != NULL) *at = depth;
 }
 
-/* Von Mises stress (eq:drilling.von-mises) over the yield strength, with the bending moment EI k of the hole's
- * curvature. */
+/* Von Mises stress (eq:drilling.von-mises) over the yield strength, with the bending moment of
+ * eq:drilling.bending. */
 static double yield_share(const dmb_soft_place *place)
 {
     const dmb_pipe_def *pipe = place->pipe;
     dmb_pipe_section section;
     dmb_section_of(pipe, &section);
-    return dmb_tube_von_mises(pipe->outer_diameter, pipe->inner_diameter, place->state[DMB_SOFT_FORCE],
-                              place->state[DMB_SOFT_TORQUE],
-                              fmax(section.stiffness[4], section.stiffness[5]) * place->curvature) /
+    return dmb_tube_von_mises(
+               pipe->outer_diameter, pipe->inner_diameter, place->state[DMB_SOFT_FORCE], place->state[DMB_SOFT_TORQUE],
+               fmax(section.stiffness[4], section.stiffness[5]) * dmb_body_curvature(pipe, place->curvature)) /
            (pipe->yield_strength > 0.0 ? pipe->yield_strength : (double)NAN);
 }
 
