@@ -24,6 +24,7 @@ from drillmbd._structs import Id, SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
+from drillmbd.scene.largest import range_of  # noqa: E402
 from drillmbd.frames import SpeedBands  # noqa: E402
 from drillmbd.profile import values_of  # noqa: E402
 from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating, operations_of  # noqa: E402
@@ -415,6 +416,19 @@ class VerdictTest(unittest.TestCase):
                                                 'eccentricity = "1 mm"\nyield_strength = "500 MPa"'))[1]
         self.assertEqual(with_strength["Von Mises stress"].verdict, "OK")
 
+    def test_a_run_that_ends_before_the_load(self):
+        """No analysis has the stress of the load on the bit then, unless pipes have a yield strength."""
+        loading = '[[time_function]]\nname = "loading"\nsegment = {kind = "step5", x1 = "%s", h1 = "2 kN"}\n[[bit]]'
+        scheduled = FATIGUE.sub("", SCENE.replace('load = "2 kN"', 'load = "loading"'))
+        for time, wanted in (("20 ms", "OK"), ("2 s", "NOT ASSESSED")):
+            text = scheduled.replace("[[bit]]", loading % time)
+            made, tiles = self.study(text)
+            self.assertEqual(made.plan.weight_on_bit, 2000.0)
+            self.assertEqual(tiles["Von Mises stress"].verdict, wanted, tiles["Von Mises stress"])
+        self.assertIn("the load on the bit, which the run of 0.02 s does not reach", tiles["Von Mises stress"].text)
+        self.assertEqual(self.study(text.replace('eccentricity = "1 mm"', 'eccentricity = "1 mm"\nyield_strength = '
+                                                 '"500 MPa"'))[1]["Von Mises stress"].verdict, "OK")
+
     def test_nonlinear_buckling(self):
         """The string buckles at 1 + factor times the present loads: OK only for a confirmed factor above 0.25, without
         flutter before it, and where flutter was assessed."""
@@ -612,6 +626,13 @@ time_function = "blow"
 
 
 class OperatingTest(unittest.TestCase):
+    def test_range_up_to_a_time(self):
+        table = {"table": [(0.0, 0.0), (2.0, 0.0), (4.0, 6.0), (5.0, 1.0)]}
+        step = {"kind": enums.SEGMENT_STEP5, "x1": 2.0, "h1": 5.0}
+        self.assertEqual([range_of([table], (), end) for end in (1.0, 3.0, 4.5, math.inf)],
+                         [(0.0, 0.0), (0.0, 3.0), (0.0, 6.0), (0.0, 6.0)])
+        self.assertEqual([range_of([step], (), end)[1] for end in (1.0, 2.0, 9.0)], [2.5, 5.0, 5.0])
+
     def test_largest(self):
         """Steps up and down again, in time; against sums by hand."""
         up, down = ({"kind": enums.SEGMENT_STEP, "x0": 0.0, "x1": 1.0, "h1": 20.0},

@@ -26,9 +26,9 @@ class Operating:
     cuts: bool = False                  #: a rock law adds load and torque of the bit in a run
 
 
-def operating(scene: Scene, string: int | None = None) -> Operating:
+def operating(scene: Scene, string: int | None = None, end: float = math.inf) -> Operating:
     """Of the first drives along and about x, and the first bit. string: the number of a string, of whose drives and bit
-    it is then; drives of joints and bodies may turn any string."""
+    it is then; drives of joints and bodies may turn any string. end: [s] up to which the load on the bit counts."""
     time_functions: list[Any] = [segments for name, segments in scene.model.calls if name == "add_time_function"]
     found = Operating()
     for name, arguments in scene.model.calls:
@@ -42,7 +42,7 @@ def operating(scene: Scene, string: int | None = None) -> Operating:
             elif fields.get("component", enums.X) == enums.X and found.feed is None:
                 found.feed = _ahead(time_functions, fields.get("time_function"))
         if name == "add_bit" and found.weight_on_bit is None:
-            found.weight_on_bit = _ahead(time_functions, fields.get("load"))
+            found.weight_on_bit = _ahead(time_functions, fields.get("load"), end)
             found.cuts = _law(fields) != enums.ROCK_NONE
             _estimate(found, fields)
     return found
@@ -60,9 +60,9 @@ def _value(time_functions: list[Any], part: Any) -> float | None:
     return largest_of(time_functions[part.index & 0xFFFFFF], time_functions) if part else None
 
 
-def _ahead(time_functions: list[Any], part: Any) -> float | None:
+def _ahead(time_functions: list[Any], part: Any, end: float = math.inf) -> float | None:
     """The largest value > 0 of a time function, else 0: a feed into the hole, a load against it."""
-    found = range_of(time_functions[part.index & 0xFFFFFF], time_functions) if part else None
+    found = range_of(time_functions[part.index & 0xFFFFFF], time_functions, end) if part else None
     return None if found is None else max(0.0, found[1])
 
 

@@ -36,6 +36,7 @@ from .unit_systems import Units
 from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, duration, shown
 
 FRAMES, STRESSES, POINTS, DEPTHS = 60, 2000, 300, 40
+REACHED = 1e-3  #: of the load on the bit, less in a run
 #: Operations in the order of OPERATIONS, with the names of the library.
 OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phrase("drill"), phrase("slide"),
                    phrase("back-ream"))
@@ -135,9 +136,17 @@ class Study:
             for key in ("torque", "yield_stress"):
                 self.demands[key].failed.append(phrase("the torque of the bit, which is not estimated without its "
                                                        "diameter"))
-        elif not ran and not math.isfinite(self._yield_strength()):
+        elif not math.isfinite(self._yield_strength()) and not ran:
             self.demands["yield_stress"].failed.append(phrase("the load on the bit, because the scene has no [run] "
                                                               "end"))
+        elif not math.isfinite(self._yield_strength()) and not self._run_is_loaded():
+            self.demands["yield_stress"].failed.append(phrase("the load on the bit, which the run of {end:g} s does "
+                                                              "not reach", end=self.scene.run["end"]))
+
+    def _run_is_loaded(self) -> bool:
+        """Whether the load on the bit is at its largest before the run ends."""
+        within = operating(self.scene, 0, self.scene.run["end"]).weight_on_bit or 0.0
+        return within >= (1.0 - REACHED) * (self.plan.weight_on_bit or 0.0)
 
     def _attempt(self, what: Phrase, demands: tuple[str, ...], analysis: Callable[[], None]) -> None:
         try:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bisect
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -36,24 +37,25 @@ def largest_of(segments: Any, time_functions: Sequence[Any] = ()) -> float | Non
     return None if found is None else max(abs(found[0]), abs(found[1]))
 
 
-def range_of(segments: Any, time_functions: Sequence[Any] = ()) -> tuple[float, float] | None:
-    """The smallest and largest value of a sum of segments over all times; None if a function of the caller is among
-    them, or a segment per revolution whose time function is not among `time_functions`. Steps and tables are added at
-    the same times, so that a step up and one down later do not add up; harmonics, segments per revolution and tables
-    that repeat count with their largest magnitude at any time."""
+def range_of(segments: Any, time_functions: Sequence[Any] = (), end: float = math.inf) -> tuple[float, float] | None:
+    """The smallest and largest value of a sum of segments over all times, or up to `end` [s]; None if a function of
+    the caller is among them, or a segment per revolution whose time function is not among `time_functions`. Steps and
+    tables are added at the same times, so that a step up and one down later do not add up; harmonics, segments per
+    revolution and tables that repeat count with their largest magnitude at any time."""
     if time_functions:
         segments = bounded(segments, time_functions)
     segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment
                                                     else enums.SEGMENT_CONSTANT))} for segment in segments]
     if not all(by_numbers(segment) for segment in segments):
         return None
-    if len(segments) == 1 and segments[0].get("table"):
+    if len(segments) == 1 and segments[0].get("table") and end == math.inf:
         values = [float(value) for _, value in segments[0]["table"]]
         return min(values), max(values)
     swing = sum(abs(segment.get("h1", 0.0)) for segment in segments if segment["kind"] == enums.SEGMENT_HARMONIC)
     swing += sum(max(abs(value) for _, value in segment["table"])
                  for segment in segments if segment["kind"] == enums.SEGMENT_PERIODIC)
-    values = [sum(_value_at(segment, time) for segment in segments) for time in _times(segments)]
+    values = [sum(_value_at(segment, time) for segment in segments)
+              for time in (*(one for one in _times(segments) if one <= end), *([end] if end < math.inf else []))]
     return float(min(values) - swing), float(max(values) + swing)
 
 
