@@ -216,8 +216,7 @@ enum {
     DMB_PROFILE_DEVIATION_UP = 7, /* [m] its other part: towards the high side */
     DMB_PROFILE_AXIAL_FORCE = 8, /* [N] true axial force N */
     DMB_PROFILE_EFFECTIVE_FORCE = 9, /* [N] effective force N_e, as dmb_query_section */ DMB_PROFILE_TORQUE = 10, /* [N m] */
-    DMB_PROFILE_BENDING_MOMENT = 11, /* [N m] magnitude; of axial-torsional pipes EI times the hole's curvature,
-        which pipes have between their rigid tool joints: times length/(length - joint_length) */
+    DMB_PROFILE_BENDING_MOMENT = 11, /* [N m] magnitude; of axial-torsional pipes EI times the curvature of eq:drilling.bending */
     DMB_PROFILE_SHEAR_FORCE = 12, /* [N] magnitude */
     DMB_PROFILE_CURVATURE = 13, /* [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints */
     DMB_PROFILE_NORMAL_FORCE = 14, /* [N/m] of the wall on the string, >= 0; that of the nearest contact point */

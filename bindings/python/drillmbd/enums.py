@@ -724,7 +724,7 @@ class ProfileQuantity(IntEnum):
     AXIAL_FORCE: [N] true axial force N
     EFFECTIVE_FORCE: [N] effective force N_e, as dmb_query_section
     TORQUE: [N m]
-    BENDING_MOMENT: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature, which pipes have between their rigid tool joints: times length/(length - joint_length)
+    BENDING_MOMENT: [N m] magnitude; of axial-torsional pipes EI times the curvature of eq:drilling.bending
     SHEAR_FORCE: [N] magnitude
     CURVATURE: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
     NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact point
