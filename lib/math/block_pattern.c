@@ -208,7 +208,7 @@ static double count_values(const uint32_t *capacity, const dmb_block_pattern *p)
 
 /* Places the blocks of each position consecutively, so that factorisation accesses memory in order; false if they
  * overflow. Operations of a block of c rows with d rows coupled to it later: 2 c^3/3 for its LU factors, c^2 d for each
- * of the two off-diagonal rows of blocks, 2 c d^2 for what they subtract from later blocks. */
+ * of the two off-diagonal rows of blocks, 2 c d^2 for the subtraction from later blocks. */
 static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
 {
     if (count_values(capacity, p) > (double)(SIZE_MAX / (2 * sizeof(double)))) return false;

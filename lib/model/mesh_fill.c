@@ -2,7 +2,7 @@
  * Properties that a step would test for every part are determined once, here: elements with damping, bends or arms,
  * scenes of beams alone, free rigid bodies. Order: rows and chains first, because drives are found by rows and free
  * bodies by their chains; elements before the lengths of chains, which are means of theirs; joints and contact points
- * before what is spread across them. */
+ * before the depths that nodes take over across them (fill_near_sites). */
 #include "model/mesh.h"
 
 #include <string.h>

@@ -290,8 +290,8 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
 /* ---- Freeze ------------------------------------------------------------------------------------------------------ */
 
 /* The same layout runs twice, on an arena that counts and on one that places: the size of the block cannot differ from
- * what is put there. Only storage whose size follows from the finished scene (patterns, dense components) is allocated
- * after it. */
+ * that of its contents. Only storage whose size follows from the finished scene (patterns, dense components) is
+ * allocated after it. */
 int32_t dmb_mesh_finalise(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;

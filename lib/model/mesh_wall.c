@@ -80,7 +80,7 @@ static int32_t push_site(dmb_mesh *mesh, const dmb_site *site)
     return dmb_vector_append(&mesh->sites, &mesh->model->allocator, &added, 1);
 }
 
-/* A node on the hole's axis stands for its pipes, which touch the wall with their tool joints: its radius does not
+/* A node on the hole's axis represents its pipes, which touch the wall with their tool joints: its radius does not
  * depend on the mesh (R_p of eq:drilling.soft-string). */
 static int32_t push_axial_torsional_site(const site_iterator *iterator)
 {

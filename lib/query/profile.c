@@ -306,8 +306,8 @@ static void buckling_values(station *at)
     v[DMB_PROFILE_HELICAL_SHARE] = dmb_helical_ratio(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
 }
 
-/* Forces per metre: a contact point stands for a length of wall that the mesh decides; its force over that length is
- * what a finer mesh approaches. */
+/* Forces per metre: a contact point represents a length of wall, which depends on the mesh; its force over that length
+ * converges with the mesh. */
 static int32_t contact_values(station *at)
 {
     const uint32_t site = nearest_site(at);

@@ -91,7 +91,7 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-/* The laws as compiled: mu stands for the restitution of the description. A parameter that is missing here lets a
+/* The laws as compiled: mu follows from the restitution of the description. A parameter that is missing here lets a
  * snapshot into a model in which it differs; those of friction are all members from the first to the table. */
 static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
 {
